@@ -1,0 +1,26 @@
+# kardan_floor(NAME dependencies...): the static library of one folder of src/kardan, made of every .cpp in it.
+# The dependencies are the folders it may include (DESIGN section 2; tests/include_graph checks the includes themselves).
+function(kardan_floor name)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/kardan/${name}/*.cpp)
+  if(sources)
+    add_library(kardan_${name} STATIC ${sources})
+    set(scope PUBLIC)
+  else()
+    add_library(kardan_${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_link_libraries(kardan_${name} ${scope} kardan_options)
+  foreach(dependency ${ARGN})
+    target_link_libraries(kardan_${name} ${scope} kardan_${dependency})
+  endforeach()
+endfunction()
+
+# kardan_uses(NAME targets...): outside libraries of a floor.
+function(kardan_uses name)
+  get_target_property(type kardan_${name} TYPE)
+  if(type STREQUAL "INTERFACE_LIBRARY")
+    target_link_libraries(kardan_${name} INTERFACE ${ARGN})
+  else()
+    target_link_libraries(kardan_${name} PUBLIC ${ARGN})
+  endif()
+endfunction()

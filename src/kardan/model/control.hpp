@@ -1,0 +1,71 @@
+// How the run is controlled, and what is written.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "kardan/base/index.hpp"
+
+namespace kardan {
+
+struct Termination {
+  double end_time = 0;        ///< ENDTIM
+  std::int64_t end_cycle = 0; ///< ENDCYC, 0 = no limit
+  double dt_min = 0;          ///< DTMIN, fraction of the initial dt at which the run stops
+  double end_energy = 0;      ///< ENDENG, percent change of the energy ratio at which the run stops
+  double end_mass = 1e8;      ///< ENDMAS, percent change of mass
+};
+
+struct TimeStepControl {
+  double initial = 0;        ///< DTINIT; 0 = computed
+  double scale = 0.9;        ///< TSSFAC
+  int isdo = 0;
+  double dt2ms = 0;
+  CurveIndex limit = none;   ///< LCTM: largest dt against time
+  int erode = 0;
+};
+
+struct RigidControl {
+  int lmf = -1;              ///< *CONTROL_RIGID LMF: 0 penalty, 1 Lagrange; -1 = not in the deck: Kardan's default, exact
+  int jntf = 0;              ///< generalized stiffness: 0 incremental, 1 total, 2 total for implicit
+  double gjadstf = 0, gjadvsc = 0, tjadstf = 0, tjadvsc = 0;
+};
+
+struct EnergyControl {
+  int hgen = 1, rwen = 2, slnten = 1, rylen = 1;
+};
+
+/// The files a deck can ask for (*DATABASE_<name>).
+enum class OutputFile : std::uint8_t { glstat, matsum, nodout, rbdout, jntforc, bndout, spcforc, deforc, elout, rcforc,
+                                       sleout, rwforc, secforc, swforc, ncforc, abstat, nodfor, d3plot, d3thdt };
+const char* to_string(OutputFile file);
+
+struct OutputRequest {
+  double dt = 0;             ///< interval; 0 = not written
+  int binary = 0;            ///< BINARY: 1 ASCII, 2 binout, 3 both; 0 = the default, both
+  CurveIndex curve = none;   ///< LCUR: interval against time
+};
+
+struct OutputControl {
+  std::map<OutputFile, OutputRequest> requests;
+  std::vector<NodeIndex> history_nodes;
+  std::vector<Index> history_shells, history_solids, history_beams, history_discrete;
+  int maxint = 3;            ///< *DATABASE_EXTENT_BINARY
+  int strain_flag = 0;
+  int component_flag_shell = 1;
+};
+
+struct Control {
+  Termination termination;
+  TimeStepControl time_step;
+  RigidControl rigid;
+  EnergyControl energy;
+  double bulk_q1 = 1.5, bulk_q2 = 0.06;
+  int hourglass_type = 0;
+  double hourglass_qm = 0.1;
+  int shell_istupd = 0, shell_bwc = 2;
+};
+
+}  // namespace kardan

@@ -1,0 +1,45 @@
+#include "kardan/model/curve.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace kardan {
+
+namespace {
+
+/// Index i of the segment [x_i, x_{i+1}] that holds `abscissa`; the caller has excluded the outside.
+std::size_t segment(const std::vector<double>& x, double abscissa) {
+  const auto upper = std::upper_bound(x.begin(), x.end(), abscissa);
+  return static_cast<std::size_t>(upper - x.begin()) - 1;
+}
+
+}  // namespace
+
+double Curve::value(double abscissa) const {
+  if (abscissa <= x.front()) return y.front();
+  if (abscissa >= x.back()) return y.back();
+  const std::size_t i = segment(x, abscissa);
+  return y[i] + (y[i + 1] - y[i]) * ((abscissa - x[i]) / (x[i + 1] - x[i]));
+}
+
+double Curve::slope(double abscissa) const {
+  if (abscissa < x.front() || abscissa >= x.back()) return 0.0;
+  const std::size_t i = segment(x, abscissa);
+  return (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
+}
+
+double Curve::integral(double abscissa) const {
+  // Antiderivative that vanishes at x.front(), the end values held outside the range.
+  const auto from_first = [this](double to) {
+    if (to <= x.front()) return y.front() * (to - x.front());
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+      if (to <= x[i + 1]) return sum + 0.5 * (y[i] + value(to)) * (to - x[i]);
+      sum += 0.5 * (y[i] + y[i + 1]) * (x[i + 1] - x[i]);
+    }
+    return sum + y.back() * (to - x.back());
+  };
+  return from_first(abscissa) - from_first(0.0);
+}
+
+}  // namespace kardan

@@ -1,0 +1,185 @@
+// What a model is meshed of: nodes, elements, sections, parts, sets, frames.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "kardan/base/index.hpp"
+#include "kardan/base/vec3.hpp"
+
+namespace kardan {
+
+/// Bits of a set of degrees of freedom in some frame.
+enum Dof : std::uint8_t {
+  dof_x = 1, dof_y = 2, dof_z = 4, dof_rx = 8, dof_ry = 16, dof_rz = 32,
+  dof_translations = 7, dof_rotations = 56, dof_all = 63
+};
+
+/// *NODE; arrays of one length, in the order of the deck.
+struct Nodes {
+  std::vector<UserId> id;
+  std::vector<Vec3> x;                    ///< initial coordinates, global
+  std::vector<std::uint8_t> constrained;  ///< Dof bits from TC and RC of *NODE, global axes
+  std::unordered_map<UserId, NodeIndex> index_of;
+
+  std::size_t size() const { return id.size(); }
+};
+
+enum class ElementKind : std::uint8_t { shell, solid, beam, discrete };
+
+/// Connectivity of the elements of one kind. Nodes not used by an element are `none`; a triangle repeats its third node,
+/// a tetrahedron or wedge repeats nodes as LS-DYNA does.
+template <std::size_t NodeCount>
+struct ElementBlock {
+  std::vector<UserId> id;
+  std::vector<PartIndex> part;
+  std::vector<std::array<NodeIndex, NodeCount>> nodes;
+
+  std::size_t size() const { return id.size(); }
+};
+
+struct ShellElements : ElementBlock<4> {
+  /// *ELEMENT_SHELL_THICKNESS: thickness at the four nodes by element index; absent where the section's holds.
+  std::unordered_map<Index, std::array<double, 4>> thickness;
+};
+
+struct SolidElements : ElementBlock<8> {};
+
+struct BeamElements : ElementBlock<3> {};  ///< third node: orientation, may be `none`
+
+/// *ELEMENT_DISCRETE: springs and dampers between two nodes, or one node and ground (second node `none`).
+struct DiscreteElements : ElementBlock<2> {
+  std::vector<Index> orientation;   ///< into Model::sd_orientations, `none` = along the line of the nodes
+  std::vector<double> scale;        ///< S on the force
+  std::vector<std::uint8_t> print;  ///< PF: 0 = in DEFORC
+  std::vector<double> offset;       ///< initial offset (displacement or rotation at t = 0)
+};
+
+/// *ELEMENT_MASS, _NODE_SET, _PART (distributed already to nodes by the reader).
+struct PointMass {
+  UserId id = 0;
+  NodeIndex node = none;
+  double mass = 0;
+  PartIndex part = none;  ///< part that counts it in MATSUM, or none
+};
+
+/// *ELEMENT_INERTIA: tensor entries about the node (IXY is the entry of the tensor), global axes or those of `frame`.
+struct PointInertia {
+  UserId id = 0;
+  NodeIndex node = none;
+  double mass = 0;
+  Mat3 inertia{};
+  Index frame = none;
+};
+
+struct ShellSection {
+  int elform = 2;
+  double shrf = 1.0;
+  int nip = 2;
+  std::array<double, 4> thickness{};
+  double nloc = 0;
+  double mass_per_area = 0;  ///< MAREA
+};
+struct SolidSection { int elform = 1; };
+struct BeamSection {
+  int elform = 1;
+  double shrf = 1.0;
+  int cst = 0;                       ///< 0 rectangular, 1 tubular, 2 arbitrary
+  std::array<double, 2> ts{}, tt{};  ///< Hughes-Liu: outer / inner sizes at nodes 1, 2
+  double area = 0, iss = 0, itt = 0, j = 0, sa = 0;
+  double volume = 0, inertia = 0;    ///< discrete beam (ELFORM 6)
+};
+struct DiscreteSection {
+  int dro = 0;  ///< 0 translational, 1 torsional
+  double kd = 0, v0 = 0, cl = 0, fd = 0, cdl = 0, tdl = 0;
+};
+
+struct Section {
+  UserId id = 0;
+  std::string title;
+  ElementKind kind = ElementKind::shell;
+  ShellSection shell;
+  SolidSection solid;
+  BeamSection beam;
+  DiscreteSection discrete;
+};
+
+/// Mass properties given by the user (*PART_INERTIA, *CONSTRAINED_NODAL_RIGID_BODY_INERTIA).
+struct GivenInertia {
+  Vec3 center{};                 ///< global coordinates; from NODEID where given
+  NodeIndex center_node = none;
+  double mass = 0;
+  Mat3 inertia{};                ///< about the centre; tensor entries, in the axes of `axes`
+  std::optional<Mat3> axes;      ///< columns: local axes in global components (IRCS = 1); absent: global
+  Vec3 velocity{}, angular_velocity{};  ///< initial, global components
+  Index velocity_frame = none;   ///< frame VTX … VRZ are given in; none = global
+};
+
+struct Part {
+  UserId id = 0;
+  std::string title;
+  Index section = none;
+  Index material = none;
+  Index hourglass = none;
+  std::optional<GivenInertia> inertia;
+};
+
+struct NodeSet {
+  UserId id = 0;
+  std::string title;
+  std::vector<NodeIndex> nodes;  ///< ascending by first mention, without repeats
+};
+struct PartSet {
+  UserId id = 0;
+  std::string title;
+  std::vector<PartIndex> parts;
+};
+struct SegmentSet {
+  UserId id = 0;
+  std::string title;
+  std::vector<std::array<NodeIndex, 4>> segments;  ///< a triangle repeats its third node
+};
+struct ElementSet {
+  UserId id = 0;
+  std::string title;
+  ElementKind kind = ElementKind::shell;
+  std::vector<Index> elements;
+};
+
+/// *DEFINE_COORDINATE_SYSTEM / _NODES / _VECTOR.
+struct Frame {
+  UserId id = 0;
+  std::string title;
+  Vec3 origin{};
+  Mat3 axes = Mat3::identity();                ///< columns: local x, y, z in global components, at t = 0
+  std::array<NodeIndex, 3> nodes{none, none, none};  ///< _NODES: origin, on the axis, in the plane
+  bool moves = false;                          ///< _NODES with FLAG = 1: follows its nodes
+  int axis = 1;                                ///< _NODES DIR: 1 = x, 2 = y, 3 = z along nodes 1-2
+};
+
+/// *DEFINE_VECTOR and _NODES.
+struct DirectionVector {
+  UserId id = 0;
+  Vec3 tail{}, head{};  ///< global, or in the axes of `frame`
+  std::array<NodeIndex, 2> nodes{none, none};
+  Index frame = none;
+};
+
+/// *DEFINE_SD_ORIENTATION.
+struct SdOrientation {
+  UserId id = 0;
+  int iop = 0;  ///< 0 along the vector, 1 in the plane normal to it, 2 along two moving nodes, 3 normal to them
+  Vec3 vector{};
+  std::array<NodeIndex, 2> nodes{none, none};
+};
+
+struct Box {
+  UserId id = 0;
+  Vec3 low{}, high{};
+};
+
+}  // namespace kardan

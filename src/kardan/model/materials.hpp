@@ -1,0 +1,61 @@
+// Materials as typed structs. A law that Kardan reads but cannot compute yet is an UnsupportedMaterial: its density
+// still counts, and running a deformable part of it is refused by name.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "kardan/base/index.hpp"
+#include "kardan/base/vec3.hpp"
+
+namespace kardan {
+
+/// *MAT_RIGID (020).
+struct RigidMaterial {
+  double density = 0, youngs_modulus = 0, poissons_ratio = 0;
+  double cmo = 0;                   ///< +1 global constraints, -1 local, 0 none
+  int con1 = 0;                     ///< CMO = 1: translational code 0-7; CMO = -1: frame id resolved in `frame`
+  int con2 = 0;                     ///< CMO = 1: rotational code 0-7; CMO = -1: Dof bits in local axes
+  Index frame = none;               ///< CMO = -1
+  Index output_frame = none;        ///< LCO: local output system
+  Vec3 a{}, v{};                    ///< A1..A3, V1..V3 where LCO is not a frame
+};
+
+/// *MAT_ELASTIC (001).
+struct ElasticMaterial {
+  double density = 0, youngs_modulus = 0, poissons_ratio = 0, da = 0, db = 0;
+};
+
+/// Springs and dampers of *ELEMENT_DISCRETE, S01 to S08.
+enum class SpringLaw : std::uint8_t {
+  elastic_spring,            ///< S01: f = K d
+  viscous_damper,            ///< S02: f = DC v
+  elastoplastic_spring,      ///< S03: K, KT, FY
+  nonlinear_elastic_spring,  ///< S04: f = LCD(d) (1 + LCR(v))
+  nonlinear_viscous_damper,  ///< S05: f = LCDR(v)
+  general_nonlinear_spring,  ///< S06: LCDL, LCDU, BETA, TYI, CYI
+  maxwell_spring,            ///< S07: K0, KI, BETA, TC, FC, COPT
+  inelastic_spring           ///< S08: LCFD, KU, CTF
+};
+struct SpringMaterial {
+  SpringLaw law = SpringLaw::elastic_spring;
+  std::array<double, 6> p{};                             ///< the law's reals in the order of its card
+  std::array<CurveIndex, 2> curve{none, none};           ///< the law's curves in the order of its card
+};
+
+struct UnsupportedMaterial {
+  std::string keyword;
+  double density = 0, youngs_modulus = 0, poissons_ratio = 0;
+};
+
+struct Material {
+  UserId id = 0;
+  std::string title;
+  std::variant<RigidMaterial, ElasticMaterial, SpringMaterial, UnsupportedMaterial> law;
+
+  bool rigid() const { return std::holds_alternative<RigidMaterial>(law); }
+};
+
+}  // namespace kardan

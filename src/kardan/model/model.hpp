@@ -1,0 +1,65 @@
+// The immutable description of what is simulated: plain typed structs, references resolved to indices, no keyword text.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "kardan/model/control.hpp"
+#include "kardan/model/curve.hpp"
+#include "kardan/model/entities.hpp"
+#include "kardan/model/loads.hpp"
+#include "kardan/model/materials.hpp"
+#include "kardan/model/rigid.hpp"
+
+namespace kardan {
+
+struct Model {
+  std::string title;
+
+  Nodes nodes;
+  ShellElements shells;
+  SolidElements solids;
+  BeamElements beams;
+  DiscreteElements discretes;
+  std::vector<PointMass> masses;
+  std::vector<PointInertia> inertias;
+
+  std::vector<Part> parts;
+  std::vector<Section> sections;
+  std::vector<Material> materials;
+
+  std::vector<Curve> curves;
+  std::vector<Table> tables;
+  std::vector<Frame> frames;
+  std::vector<DirectionVector> vectors;
+  std::vector<SdOrientation> sd_orientations;
+  std::vector<NodeSet> node_sets;
+  std::vector<PartSet> part_sets;
+  std::vector<SegmentSet> segment_sets;
+  std::vector<ElementSet> element_sets;
+
+  std::vector<NodalRigidBody> nodal_rigid_bodies;
+  std::vector<RigidBodyMerge> merges;
+  std::vector<ExtraNodes> extra_nodes;
+  std::vector<Joint> joints;
+  std::vector<JointStiffness> joint_stiffnesses;
+  std::vector<RigidBodyStopper> stoppers;
+
+  std::vector<BodyLoad> body_loads;
+  std::vector<PointLoad> point_loads;
+  std::vector<PrescribedMotion> prescribed_motions;
+  std::vector<SinglePointConstraint> constraints;
+  std::vector<InitialVelocity> initial_velocities;
+
+  Control control;
+  OutputControl output;
+
+  /// Part `p` is rigid (*MAT_RIGID).
+  bool rigid_part(PartIndex p) const {
+    const Index m = parts[static_cast<std::size_t>(p)].material;
+    return m != none && materials[static_cast<std::size_t>(m)].rigid();
+  }
+};
+
+}  // namespace kardan
