@@ -1,0 +1,127 @@
+// The mutable side of a run. Floor-3 folders meet here: elements, contact and loads write nodal forces, rigid and nodes
+// read them.
+//
+// Time levels (leapfrog): at the start of cycle n positions are at t_n and velocities at t_{n-1/2}. The kick brings
+// velocities to t_{n+1/2}; between kick and drift every quantity "at t_n" is known and observers are called; the drift
+// brings positions to t_{n+1}.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "kardan/base/index.hpp"
+#include "kardan/base/rotation.hpp"
+#include "kardan/base/vec3.hpp"
+#include "kardan/state/registry.hpp"
+
+namespace kardan {
+
+struct Clock {
+  std::int64_t cycle = 0;
+  double time = 0;         ///< t_n
+  double dt = 0;           ///< t_{n+1} - t_n, of the drift to come
+  double dt_previous = 0;  ///< t_n - t_{n-1}; 0 at the start
+
+  /// Length of the kick at t_n: half the step before and half the step after.
+  double kick() const { return 0.5 * (dt_previous + dt); }
+  /// Share of the kick that belongs to the time before t_n: v_n = v_{n-1/2} + share (v_{n+1/2} - v_{n-1/2}).
+  double share_before() const { return dt_previous / (dt_previous + dt); }
+};
+
+/// One entry a node, in the model's order. Nodes of rigid bodies: x and v are made from the body when somebody needs them.
+struct NodeState {
+  std::vector<Vec3> x;               ///< positions at t_n                      (nodes.drift, rigid.drift)
+  std::vector<Vec3> v;               ///< velocities at t_{n-1/2}, after the kick t_{n+1/2}
+  std::vector<Vec3> omega;           ///< angular velocities, likewise
+  std::vector<Vec3> v_now;           ///< velocities at t_n, valid between kick and drift
+  std::vector<Vec3> a;               ///< accelerations at t_n, likewise
+  std::vector<Vec3> force;           ///< sum of all forces at t_n              (assembly)
+  std::vector<Vec3> moment;          ///< sum of all moments at t_n
+  std::vector<double> mass;          ///< lumped mass
+  std::vector<double> inertia;       ///< lumped isotropic rotary inertia
+  std::vector<BodyIndex> body;       ///< rigid body the node belongs to, `none` if deformable
+
+  void resize(std::size_t n) {
+    for (auto* a3 : {&x, &v, &omega, &v_now, &a, &force, &moment}) a3->assign(n, Vec3{});
+    mass.assign(n, 0.0);
+    inertia.assign(n, 0.0);
+    body.assign(n, none);
+  }
+};
+
+/// Motion of one rigid body (paper eqs. 1-13). Orientation turns the principal axes at t_n into global axes.
+struct BodyMotion {
+  Vec3 center;             ///< centre of mass at t_n
+  Quat orientation;        ///< principal axes -> global at t_n
+  Vec3 velocity;           ///< of the centre, half step
+  Vec3 angular_momentum;   ///< about the centre, global components, half step
+  Vec3 angular_velocity;   ///< global components, half step
+};
+
+/// What is reported of a body at t_n (RBDOUT); valid between kick and drift.
+struct BodyReport {
+  Vec3 velocity, angular_velocity;          ///< at t_n
+  Vec3 acceleration, angular_acceleration;  ///< at t_n
+  Vec3 force, moment;                       ///< applied resultants at t_n, joints left out
+};
+
+struct BodyState {
+  std::vector<BodyMotion> motion;
+  std::vector<BodyReport> report;
+  std::vector<Vec3> force, moment;  ///< resultants being summed for the kick at t_n: loads write, rigid adds the nodes'
+};
+
+/// What a joint reports at t_n (JNTFORC): force and moment that body A exerts on body B at point 2, global components.
+struct JointReport {
+  Vec3 force, moment;
+  double separation = 0;        ///< distance of the joint's points from where the joint wants them
+  double angular_separation = 0;///< radians
+  double energy = 0;            ///< stored in the penalty springs plus dissipated by their dampers
+  std::uint8_t failed = 0;
+};
+
+/// What a joint stiffness reports at t_n (JNTFORC type 0/1).
+struct JointStiffnessReport {
+  std::array<double, 3> coordinate{}, rate{};             ///< radians (length) and radians/time
+  std::array<double, 3> elastic{}, damping{}, total{};    ///< moments (forces)
+  double energy = 0;                                      ///< stored plus dissipated
+};
+
+/// *BOUNDARY_SPC and prescribed motion reactions and DEFORC at t_n.
+struct DiscreteReport {
+  double force = 0, elongation = 0;  ///< moment and rotation for torsional elements
+  Vec3 global_force;                 ///< on node 2
+};
+
+/// Energies at t_n by the classes GLSTAT prints, per part where a part has it.
+struct EnergyLedger {
+  std::vector<double> part_kinetic, part_internal, part_hourglass;  ///< by part of the model
+  double kinetic = 0, internal = 0, spring_damper = 0, hourglass = 0, system_damping = 0, sliding = 0;
+  double external_work = 0, joint = 0, stopper = 0, stonewall = 0, eroded_kinetic = 0, eroded_internal = 0;
+  double initial = 0;  ///< total at t = 0
+  double initial_joint_loss = 0;  ///< kinetic energy removed at t = 0 where initial velocities contradicted the joints
+
+  double total() const {
+    return kinetic + internal + spring_damper + hourglass + system_damping + sliding + joint + stopper + stonewall +
+           eroded_kinetic + eroded_internal;
+  }
+  /// GLSTAT's energy ratio total / (initial + external work); 1 where there is no energy at all.
+  double ratio() const {
+    const double base = initial + external_work;
+    return base != 0 ? total() / base : 1.0;
+  }
+};
+
+struct State {
+  Clock clock;
+  NodeState nodes;
+  BodyState bodies;
+  std::vector<JointReport> joints;
+  std::vector<JointStiffnessReport> joint_stiffnesses;
+  std::vector<DiscreteReport> discretes;
+  EnergyLedger energy;
+  Registry registry;
+};
+
+}  // namespace kardan
