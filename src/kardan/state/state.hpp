@@ -41,12 +41,15 @@ struct NodeState {
   std::vector<double> mass;          ///< lumped mass
   std::vector<double> inertia;       ///< lumped isotropic rotary inertia
   std::vector<BodyIndex> body;       ///< rigid body the node belongs to, `none` if deformable
+  std::vector<std::uint8_t> needed;  ///< 1: somebody reads or loads this node every cycle, so a rigid body keeps it current;
+                                     ///< the other nodes of bodies are brought up to date only for output
 
   void resize(std::size_t n) {
     for (auto* a3 : {&x, &v, &omega, &v_now, &a, &force, &moment}) a3->assign(n, Vec3{});
     mass.assign(n, 0.0);
     inertia.assign(n, 0.0);
     body.assign(n, none);
+    needed.assign(n, 0);
   }
 };
 
@@ -66,7 +69,20 @@ struct BodyReport {
   Vec3 force, moment;                       ///< applied resultants at t_n, joints left out
 };
 
+/// What stays the same of a body.
+struct BodyInfo {
+  UserId id = 0;           ///< part id of the lead part, or PID of a nodal rigid body
+  bool nodal = false;      ///< *CONSTRAINED_NODAL_RIGID_BODY
+  PartIndex part = none;   ///< lead part; none for nodal rigid bodies
+  double mass = 0;
+  Vec3 principal_inertia;
+  Vec3 initial_center;
+  Quat initial_orientation;  ///< principal axes -> global at t = 0
+};
+
 struct BodyState {
+  std::vector<BodyInfo> info;
+  std::vector<BodyIndex> of_part;  ///< body of each part of the model (merged parts share one), `none` if deformable
   std::vector<BodyMotion> motion;
   std::vector<BodyReport> report;
   std::vector<Vec3> force, moment;  ///< resultants being summed for the kick at t_n: loads write, rigid adds the nodes'
@@ -88,7 +104,18 @@ struct JointStiffnessReport {
   double energy = 0;                                      ///< stored plus dissipated
 };
 
-/// *BOUNDARY_SPC and prescribed motion reactions and DEFORC at t_n.
+/// Reaction of a *BOUNDARY_SPC (SPCFORC) or of a prescribed motion (BNDOUT) at t_n, global components.
+struct ReactionReport {
+  enum class Kind : std::uint8_t { single_point_constraint, motion_of_node, motion_of_body } kind =
+      Kind::single_point_constraint;
+  UserId id = 0;           ///< of the constraint or motion; 0 = none given
+  NodeIndex node = none;
+  BodyIndex body = none;
+  Vec3 force, moment;
+  double work = 0;         ///< done on the model so far
+};
+
+/// DEFORC of one discrete element at t_n.
 struct DiscreteReport {
   double force = 0, elongation = 0;  ///< moment and rotation for torsional elements
   Vec3 global_force;                 ///< on node 2
@@ -119,7 +146,8 @@ struct State {
   BodyState bodies;
   std::vector<JointReport> joints;
   std::vector<JointStiffnessReport> joint_stiffnesses;
-  std::vector<DiscreteReport> discretes;
+  std::vector<DiscreteReport> discretes;     ///< by discrete element
+  std::vector<ReactionReport> reactions;
   EnergyLedger energy;
   Registry registry;
 };
