@@ -28,10 +28,20 @@ double Curve::slope(double abscissa) const {
   return (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
 }
 
+void Curve::prepare() {
+  area.assign(x.size(), 0.0);
+  for (std::size_t i = 1; i < x.size(); ++i) area[i] = area[i - 1] + 0.5 * (y[i - 1] + y[i]) * (x[i] - x[i - 1]);
+}
+
 double Curve::integral(double abscissa) const {
   // Antiderivative that vanishes at x.front(), the end values held outside the range.
   const auto from_first = [this](double to) {
     if (to <= x.front()) return y.front() * (to - x.front());
+    if (area.size() == x.size()) {
+      if (to >= x.back()) return area.back() + y.back() * (to - x.back());
+      const std::size_t i = segment(x, to);
+      return area[i] + 0.5 * (y[i] + value(to)) * (to - x[i]);
+    }
     double sum = 0;
     for (std::size_t i = 0; i + 1 < x.size(); ++i) {
       if (to <= x[i + 1]) return sum + 0.5 * (y[i] + value(to)) * (to - x[i]);

@@ -10,6 +10,7 @@
 
 #include "kardan/base/index.hpp"
 #include "kardan/base/vec3.hpp"
+#include "kardan/model/id_map.hpp"
 
 namespace kardan {
 
@@ -24,7 +25,7 @@ struct Nodes {
   std::vector<UserId> id;
   std::vector<Vec3> x;                    ///< initial coordinates, global
   std::vector<std::uint8_t> constrained;  ///< Dof bits from TC and RC of *NODE, global axes
-  std::unordered_map<UserId, NodeIndex> index_of;
+  IdMap index_of;                         ///< user id -> index
 
   std::size_t size() const { return id.size(); }
 };
@@ -119,12 +120,26 @@ struct GivenInertia {
   Index velocity_frame = none;   ///< frame VTX … VRZ are given in; none = global
 };
 
+/// *HOURGLASS; 0 in a field = the value of *CONTROL_HOURGLASS or *CONTROL_BULK_VISCOSITY.
+struct Hourglass {
+  UserId id = 0;
+  std::string title;
+  int type = 0;                    ///< IHQ
+  double coefficient = 0;          ///< QM
+  double q1 = 0, q2 = 0;           ///< bulk viscosity
+  int bulk_type = 0;               ///< IBQ
+  double bending = 0, warping = 0; ///< QB, QW of shells
+};
+
+/// *PART, *PART_INERTIA. Every *CONSTRAINED_NODAL_RIGID_BODY has a part of its own too (as LS-DYNA gives it one), after
+/// the deck's parts, without section and material, so that loads, motions and joint stiffnesses name it by a PartIndex.
 struct Part {
   UserId id = 0;
   std::string title;
   Index section = none;
   Index material = none;
-  Index hourglass = none;
+  Index hourglass = none;            ///< into Model::hourglasses
+  Index nodal_rigid_body = none;     ///< into Model::nodal_rigid_bodies where the part is one
   std::optional<GivenInertia> inertia;
 };
 
@@ -137,6 +152,7 @@ struct PartSet {
   UserId id = 0;
   std::string title;
   std::vector<PartIndex> parts;
+  std::vector<double> attribute;  ///< A1 of *SET_PART_COLUMN by entry of `parts` (closure distance of stoppers); else empty
 };
 struct SegmentSet {
   UserId id = 0;
@@ -159,6 +175,7 @@ struct Frame {
   std::array<NodeIndex, 3> nodes{none, none, none};  ///< _NODES: origin, on the axis, in the plane
   bool moves = false;                          ///< _NODES with FLAG = 1: follows its nodes
   int axis = 1;                                ///< _NODES DIR: 1 = x, 2 = y, 3 = z along nodes 1-2
+  NodeIndex carrier = none;                    ///< _VECTOR NID: the frame turns with this node
 };
 
 /// *DEFINE_VECTOR and _NODES.

@@ -70,7 +70,10 @@ struct InitialVelocity {
   PartIndex body_part = none;          ///< rigid_body
   Vec3 velocity{}, angular_velocity{}; ///< in the axes of `frame`
   Vec3 exempt_velocity{}, exempt_angular_velocity{};
-  bool include_rigid = true;           ///< IRIGID: rigid bodies too (their given initial velocity is overridden)
+  /// IRIGID: the velocity given by *PART_INERTIA (or _NODAL_RIGID_BODY_INERTIA) is overridden too; rigid bodies without
+  /// such a velocity take this one in any case. Where `override_parts` is not empty, only the bodies of those parts.
+  bool include_rigid = true;
+  std::vector<PartIndex> override_parts;
   double omega = 0;                    ///< generation: angular velocity about the axis
   Vec3 axis_point{}, axis_direction{};
   std::vector<PartIndex> parts;        ///< generation by part

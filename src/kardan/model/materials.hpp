@@ -15,10 +15,12 @@ namespace kardan {
 /// *MAT_RIGID (020).
 struct RigidMaterial {
   double density = 0, youngs_modulus = 0, poissons_ratio = 0;
-  double cmo = 0;                   ///< +1 global constraints, -1 local, 0 none
-  int con1 = 0;                     ///< CMO = 1: translational code 0-7; CMO = -1: frame id resolved in `frame`
-  int con2 = 0;                     ///< CMO = 1: rotational code 0-7; CMO = -1: Dof bits in local axes
-  Index frame = none;               ///< CMO = -1
+  double cmo = 0;                   ///< +1 global constraints, -1 local, 0 none; +-2 likewise at `constraint_point`
+  int con1 = 0;                     ///< CMO > 0: translational code 0-7; CMO < 0: not used, see `frame`
+  int con2 = 0;                     ///< CMO > 0: rotational code 0-7; CMO < 0: Dof bits in local axes
+  Index frame = none;               ///< CMO < 0: local axes (CON1), fixed in space; none = global
+  Vec3 constraint_point{};          ///< |CMO| = 2: XSPC, YSPC, ZSPC or the initial coordinates of SPCNID
+  NodeIndex constraint_node = none; ///< |CMO| = 2: SPCNID
   Index output_frame = none;        ///< LCO: local output system
   Vec3 a{}, v{};                    ///< A1..A3, V1..V3 where LCO is not a frame
 };

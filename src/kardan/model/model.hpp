@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "kardan/base/diagnostics.hpp"
 #include "kardan/model/control.hpp"
 #include "kardan/model/curve.hpp"
 #include "kardan/model/entities.hpp"
@@ -28,6 +29,7 @@ struct Model {
   std::vector<Part> parts;
   std::vector<Section> sections;
   std::vector<Material> materials;
+  std::vector<Hourglass> hourglasses;
 
   std::vector<Curve> curves;
   std::vector<Table> tables;
@@ -55,10 +57,19 @@ struct Model {
   Control control;
   OutputControl output;
 
+  /// What the deck asks for and Kardan cannot compute (severity error): the model stands, `kardan check` reports it, and
+  /// a run must refuse before its first cycle while this is not empty.
+  std::vector<Diagnostic> unsupported;
+
   /// Part `p` is rigid (*MAT_RIGID).
   bool rigid_part(PartIndex p) const {
     const Index m = parts[static_cast<std::size_t>(p)].material;
     return m != none && materials[static_cast<std::size_t>(m)].rigid();
+  }
+
+  /// Part `p` moves as a rigid body: *MAT_RIGID, or the part that stands for a nodal rigid body.
+  bool body_part(PartIndex p) const {
+    return rigid_part(p) || parts[static_cast<std::size_t>(p)].nodal_rigid_body != none;
   }
 };
 

@@ -16,14 +16,19 @@ namespace kardan {
 /// *CONSTRAINED_NODAL_RIGID_BODY (_INERTIA, _SPC).
 struct NodalRigidBody {
   UserId id = 0;  ///< PID: shares the number space of parts
+  PartIndex part = none;  ///< its entry in Model::parts (no section, no material); what names the body by PID names this
   std::string title;
   std::vector<NodeIndex> nodes;
   Index frame = none;          ///< CID: output frame, and axes of the SPC and of DRFLAG/RRFLAG
   NodeIndex print_node = none; ///< PNODE
   int drflag = 0, rrflag = 0;  ///< released displacement / rotation DOFs of the nodes (0 = none)
   std::optional<GivenInertia> inertia;
-  std::optional<double> cmo;   ///< _SPC: as *MAT_RIGID
-  int con1 = 0, con2 = 0;
+  std::optional<double> cmo;   ///< _SPC: +-1, +-2 as *MAT_RIGID
+  int con1 = 0, con2 = 0;      ///< CMO > 0: codes 0-7; CMO < 0: con2 = Dof bits in the axes of `constraint_frame`
+  Index constraint_frame = none;         ///< CMO < 0
+  Vec3 constraint_point{};               ///< |CMO| = 2: where the constraint acts
+  NodeIndex constraint_node = none;      ///< |CMO| = 2: SPCNID, whose initial coordinates are `constraint_point`
+  int print = 0;               ///< IPRT
 };
 
 /// *CONSTRAINED_RIGID_BODIES: `constrained` becomes a piece of `lead`.
@@ -92,20 +97,26 @@ struct JointStiffness {
     double static_coefficient = 0, dynamic_coefficient = 0, decay = 0;  ///< FS, FD, DC on the joint's force
   };
   std::array<Coordinate, 3> coordinate{};
+  CurveIndex moment_scale = none, damping_scale = none;  ///< flexion-torsion LCIDG, DLCIDG: factor on the alpha moment
 };
 
-/// *CONSTRAINED_RIGID_BODY_STOPPERS: limits on the displacement and velocity of a body's centre.
+/// *CONSTRAINED_RIGID_BODY_STOPPERS: limits on the motion of a body's centre in one direction.
 struct RigidBodyStopper {
   PartIndex part = none;
-  std::array<CurveIndex, 2> limit_x{none, none}, limit_y{none, none}, limit_z{none, none};  ///< max, min against time
-  CurveIndex limit_velocity_max = none, limit_velocity_min = none;
-  double birth = 0, death = 1e28;
-  struct Slave {
-    PartIndex part = none;
-    double stopper = 0, gap = 0;
-    int direction = 0;
+  int direction = 1;            ///< DIR: 1-3 translation along global axes, 4 along `vector`, 5-7 and 8 rotation likewise
+  Index vector = none;          ///< VID, into Model::vectors
+  struct Limit {
+    CurveIndex curve = none;    ///< LCMAX / LCMIN against time; none = no limit
+    bool displacement = false;  ///< given negative: bounds the displacement, else the coordinate
   };
-  std::vector<Slave> slaves;
+  Limit maximum, minimum;
+  CurveIndex velocity = none;   ///< LCVMNX: largest |velocity| against time
+  double birth = 0, death = 1e21;
+  struct Follower {
+    PartIndex part = none;
+    double closure = 0;         ///< distance from the lead body at which it stops too; 0 = when the lead stops
+  };
+  std::vector<Follower> followers_maximum, followers_minimum;  ///< PSIDMX, PSIDMN
 };
 
 }  // namespace kardan
