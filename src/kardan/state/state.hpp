@@ -14,6 +14,7 @@
 #include "kardan/base/rotation.hpp"
 #include "kardan/base/vec3.hpp"
 #include "kardan/state/registry.hpp"
+#include "kardan/state/results.hpp"
 
 namespace kardan {
 
@@ -124,6 +125,8 @@ struct DiscreteReport {
 /// Energies at t_n by the classes GLSTAT prints, per part where a part has it.
 struct EnergyLedger {
   std::vector<double> part_kinetic, part_internal, part_hourglass;  ///< by part of the model
+  std::vector<double> part_mass;   ///< of deformable parts, for MATSUM and D3PLOT; may be empty (rigid: from the body)
+  std::vector<Vec3> part_momentum; ///< likewise
   double kinetic = 0, internal = 0, spring_damper = 0, hourglass = 0, system_damping = 0, sliding = 0;
   double external_work = 0, joint = 0, stopper = 0, stonewall = 0, eroded_kinetic = 0, eroded_internal = 0;
   double initial = 0;  ///< total at t = 0
@@ -149,6 +152,8 @@ struct State {
   std::vector<DiscreteReport> discretes;     ///< by discrete element
   std::vector<ReactionReport> reactions;
   EnergyLedger energy;
+  ElementResults results;
+  TimeStepOwner step_owner;
   Registry registry;
 };
 
