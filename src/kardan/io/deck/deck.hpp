@@ -81,6 +81,11 @@ class Card {
   bool blank(std::string_view field) const { return blank(index_of(field)); }
   bool blank(int field) const;
   bool all_blank() const;
+  /// A number field is blank or holds the table's default (0 where the table gives none).
+  bool is_default(std::string_view field) const { return is_default(index_of(field)); }
+  bool is_default(int field) const {
+    return blank(field) || real(field) == layout_->fields[static_cast<std::size_t>(field)].default_real;
+  }
 
   /// An integer; where the field is blank the table's default. "12.0" and a real parameter of integral value are accepted.
   std::int64_t integer(std::string_view field) const { return integer(index_of(field)); }
@@ -100,6 +105,7 @@ class Card {
   Vec3 point(std::string_view first_field) const;
   Vec3 direction(std::string_view first_field, Dimension d = dimension::none) const;
 
+  const Block& block() const { return *block_; }
   SourceLocation where() const;
   SourceLocation where(std::string_view field) const { return where(index_of(field)); }
   SourceLocation where(int field) const;
