@@ -1,0 +1,102 @@
+// The run of a model from t = 0 to its end. No file formats here: results leave through observers.
+//
+//   Diagnostics diagnostics;
+//   Solver solver(model, {.joints = JointHolding::penalty, .dt = 1e-6}, diagnostics);   // InputError if it cannot be run
+//   solver.attach(my_recorder);
+//   StopReason reason = solver.run();                                                  // RunError if it breaks
+//   solver.state().bodies.motion[0].center;
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "kardan/base/diagnostics.hpp"
+#include "kardan/base/timer.hpp"
+#include "kardan/model/model.hpp"
+#include "kardan/rigid/rigid_system.hpp"
+#include "kardan/solver/observer.hpp"
+#include "kardan/solver/time_step.hpp"
+#include "kardan/state/state.hpp"
+
+namespace kardan {
+
+class ElementSystem;
+class LoadSystem;
+
+/// What the command line can override.
+struct SolverOptions {
+  std::optional<JointHolding> joints;  ///< absent: as the deck says (see joint_holding)
+  std::optional<double> end_time;      ///< absent: ENDTIM
+  std::optional<double> dt;            ///< constant step if nothing deforms, else an upper bound
+  int threads = 1;
+};
+
+/// The holding a run uses and a sentence for the log that says why. *CONTROL_RIGID LMF = 1 means exact. LMF = 0 asks for
+/// penalty in LS-DYNA, but is also its default and what a blank field yields, so it cannot be told from "nothing said":
+/// exact unless the options say otherwise.
+struct HoldingChoice {
+  JointHolding holding = JointHolding::exact;
+  std::string reason;
+};
+HoldingChoice joint_holding(const Model& model, std::optional<JointHolding> given);
+
+class Solver {
+ public:
+  /// Sets the run up: masses, bodies, joints, initial velocities, time step rule. `model` must outlive the solver.
+  /// @throws InputError with everything found if the model cannot be run; warnings and notices go to `diagnostics`.
+  Solver(const Model& model, const SolverOptions& options, Diagnostics& diagnostics);
+  ~Solver();
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  /// `observer` must outlive the run. Observers are called in the order of attachment.
+  void attach(Observer& observer) { observers_.push_back(&observer); }
+
+  /// Steps until something ends the run; the state is then complete at its last t_n (between kick and drift).
+  /// @throws RunError if the run breaks, after all observers have seen the last good state with stop == broken.
+  StopReason run();
+
+  /// One step; false if the run has ended. For callers that steer the loop themselves.
+  bool step();
+
+  /// Makes the run end after the cycle in progress. Safe in a signal handler and from other threads.
+  void request_stop() { stop_requested_.store(true, std::memory_order_relaxed); }
+
+  const Model& model() const { return model_; }
+  const State& state() const { return state_; }
+  const RigidSystem& rigid() const { return *rigid_; }
+  const PhaseTimers<Phase>& timers() const { return timers_; }
+  StopReason stop_reason() const { return stop_; }
+  double end_time() const { return end_time_; }
+  StepView view() const;
+
+ private:
+  void set_up(const SolverOptions& options, Diagnostics& diagnostics);
+  void register_state();
+  void clear_forces();
+  void choose_time_step();
+  void account();
+  void check_forces() const;
+  StopReason reason_to_stop() const;
+  void notify();
+
+  const Model& model_;
+  State state_;
+  std::unique_ptr<ElementSystem> elements_;
+  std::unique_ptr<LoadSystem> loads_;
+  std::unique_ptr<RigidSystem> rigid_;
+  std::unique_ptr<class NodeMover> nodes_;
+  std::unique_ptr<TimeStepRule> rule_;
+  ClockHand clock_hand_;
+  StepBound step_;
+  double first_dt_ = 0, end_time_ = 0;
+  StopReason stop_ = StopReason::running;
+  std::atomic<bool> stop_requested_{false};
+  std::vector<Observer*> observers_;
+  PhaseTimers<Phase> timers_;
+};
+
+}  // namespace kardan
