@@ -123,7 +123,17 @@ struct DiscreteReport {
 };
 
 /// Energies at t_n by the classes GLSTAT prints, per part where a part has it.
+///
+/// Accounting, every cycle between kick and drift: the solver first calls begin(), which zeroes what is a snapshot at t_n;
+/// then every system adds (+=) its share. external_work and the eroded energies are running sums and are never zeroed.
 struct EnergyLedger {
+  void begin(std::size_t parts) {
+    part_kinetic.assign(parts, 0.0);
+    part_internal.assign(parts, 0.0);
+    part_hourglass.assign(parts, 0.0);
+    kinetic = internal = spring_damper = hourglass = system_damping = sliding = joint = stopper = stonewall = 0;
+  }
+
   std::vector<double> part_kinetic, part_internal, part_hourglass;  ///< by part of the model
   std::vector<double> part_mass;   ///< of deformable parts, for MATSUM and D3PLOT; may be empty (rigid: from the body)
   std::vector<Vec3> part_momentum; ///< likewise
