@@ -16,6 +16,12 @@ const Curve& curve_of(const Model& model, CurveIndex index) { return model.curve
 
 }  // namespace
 
+std::string to_string(const StepBound& bound) {
+  if (bound.rule) return bound.rule;
+  static constexpr const char* names[] = {"prescribed", "solid", "beam", "shell", "discrete", "joint"};
+  return fmt::format("{} {}", names[static_cast<int>(bound.owner.kind)], bound.owner.id);
+}
+
 TimeStepRule::TimeStepRule(const Model& model, const StepFacts& facts, std::optional<double> given, double end)
     : end_(end) {
   const TimeStepControl& control = model.control.time_step;
@@ -30,41 +36,37 @@ TimeStepRule::TimeStepRule(const Model& model, const StepFacts& facts, std::opti
   }
   kind_ = Kind::constant;
   if (given) {
-    constant_ = {*given, "--dt"};
+    constant_ = {*given, {}, "--dt"};
     limit_ = none;
     reason_ = fmt::format("time step: constant {:g} as given by --dt (nothing deforms)", constant_.dt);
   } else if (control.initial > 0) {
-    constant_ = {control.initial, "DTINIT"};
+    constant_ = {control.initial, {}, "DTINIT"};
     limit_ = none;
     reason_ = fmt::format("time step: constant {:g} = DTINIT of *CONTROL_TIMESTEP (nothing deforms)", constant_.dt);
   } else if (limit_ != none) {
     kind_ = Kind::curve;
     reason_ = fmt::format("time step: curve {} (LCTM of *CONTROL_TIMESTEP; nothing deforms)", curve_of(model, limit_).id);
   } else if (std::isfinite(facts.rigid_elements.dt)) {
-    constant_ = {scale_ * facts.rigid_elements.dt, facts.rigid_elements.governed_by};
+    constant_ = facts.rigid_elements;
+    constant_.dt *= scale_;
     reason_ = fmt::format(
         "time step: constant {:g} = {:g} (TSSFAC) x the Courant step of rigid {} (nothing deforms; set DTINIT or --dt for "
-        "another one)", constant_.dt, scale_, facts.rigid_elements.governed_by);
+        "another one)", constant_.dt, scale_, to_string(facts.rigid_elements));
   } else {
-    constant_ = {facts.rigid_default, "default"};
+    constant_ = {facts.rigid_default, {}, "default"};
     reason_ = fmt::format("time step: constant {:g}, 1/20,000 of the end time (nothing deforms, no element, no DTINIT)",
                           constant_.dt);
   }
 }
 
 StepBound TimeStepRule::from_rule(const Model& model, const Clock& clock, const StepBound& stable) const {
-  StepBound step{scale_ * stable.dt, stable.governed_by};
-  const auto cap = [&step](double dt, const std::string& by) {
-    if (dt < step.dt) step = {dt, by};
+  StepBound step = stable;
+  step.dt *= scale_;
+  if (kind_ == Kind::constant) return constant_.dt < step.dt ? constant_ : step;
+  const auto cap = [&step](double dt, const char* by) {
+    if (dt < step.dt) step = {dt, {}, by};
   };
-  if (kind_ == Kind::constant) {
-    cap(constant_.dt, constant_.governed_by);
-    return step;
-  }
-  if (limit_ != none) {
-    const Curve& curve = curve_of(model, limit_);
-    cap(curve.value(clock.time), fmt::format("curve {}", curve.id));
-  }
+  if (limit_ != none) cap(curve_of(model, limit_).value(clock.time), "LCTM");
   if (kind_ == Kind::courant) {
     cap(cap_, "--dt");
     if (clock.cycle == 0 && first_ > 0) cap(first_, "DTINIT");
@@ -75,12 +77,12 @@ StepBound TimeStepRule::from_rule(const Model& model, const Clock& clock, const 
 
 StepBound TimeStepRule::next(const Model& model, const Clock& clock, const StepBound& stable, double rotation) const {
   StepBound step = from_rule(model, clock, stable);
-  if (rotation < step.dt) step = {rotation, "rotation"};
+  if (rotation < step.dt) step = {rotation, {}, "rotation"};
   const double rest = end_ - clock.time;
   if (rest <= 0) return step;  // the kick at the end time: as if the run went on
   if (std::abs(rest - step.dt) <= same_step * step.dt) return step;
-  if (rest < step.dt) return {rest, "end time"};
-  if (rest < 2 * step.dt * (1 - same_step)) return {0.5 * rest, "end time"};
+  if (rest < step.dt) return {rest, {}, "end time"};
+  if (rest < 2 * step.dt * (1 - same_step)) return {0.5 * rest, {}, "end time"};
   return step;
 }
 

@@ -10,11 +10,14 @@
 
 namespace kardan {
 
-/// A step and what sets it, in words a progress line can show: {1.2e-6, "shell 4711"}.
+/// A step and what sets it: an element or joint (`owner`), or one of Kardan's own rules, by name.
 struct StepBound {
   double dt = std::numeric_limits<double>::infinity();
-  std::string governed_by;
+  TimeStepOwner owner;
+  const char* rule = nullptr;  ///< "DTINIT", "LCTM", "rotation" … where no element sets it; static storage
 };
+/// "shell 4711", "joint 3", "DTINIT": for the progress line.
+std::string to_string(const StepBound& bound);
 
 /// What the model allows, gathered before the first cycle.
 struct StepFacts {
