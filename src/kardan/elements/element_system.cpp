@@ -1,0 +1,106 @@
+#include "kardan/elements/element_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "kardan/elements/geometry.hpp"
+#include "kardan/elements/lumped_mass.hpp"
+
+namespace kardan {
+
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// Longitudinal wave speed of a plate, a solid or a bar [length/time].
+double plate_speed(const BulkProperties& m) {
+  return std::sqrt(m.youngs_modulus / (m.density * (1 - m.poissons_ratio * m.poissons_ratio)));
+}
+double solid_speed(const BulkProperties& m) {
+  const double nu = m.poissons_ratio;
+  return std::sqrt(m.youngs_modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu) * m.density));
+}
+double bar_speed(const BulkProperties& m) { return std::sqrt(m.youngs_modulus / m.density); }
+
+/// Parts with elements of one kind that would have to be computed and cannot be: one error a part.
+template <class Block>
+void refuse_deformable(const Model& model, const Block& block, const char* keyword, const char* what, Diagnostics& diagnostics) {
+  std::vector<bool> seen(model.parts.size(), false);
+  for (const PartIndex p : block.part) {
+    const Part& part = model.parts[static_cast<std::size_t>(p)];
+    if (seen[static_cast<std::size_t>(p)] || part.material == none || model.rigid_part(p)) continue;
+    seen[static_cast<std::size_t>(p)] = true;
+    const Material& material = model.materials[static_cast<std::size_t>(part.material)];
+    const auto* unsupported = std::get_if<UnsupportedMaterial>(&material.law);
+    diagnostics.error("part " + std::to_string(part.id) + " has deformable " + what + " of material " +
+                          std::to_string(material.id) + (unsupported ? " (" + unsupported->keyword + ")" : "") +
+                          ", which this version does not compute",
+                      "make the part rigid (*MAT_RIGID) or leave it out", keyword);
+  }
+}
+
+}  // namespace
+
+struct ElementSystem::Impl {
+  std::vector<double> internal, hourglass;  ///< energies at t_n by part
+};
+
+ElementSystem::ElementSystem(const Model& model, State& state, Diagnostics& diagnostics) : impl_(std::make_unique<Impl>()) {
+  add_lumped_masses(model, state, diagnostics);
+  refuse_deformable(model, model.shells, "*ELEMENT_SHELL", "shells", diagnostics);
+  refuse_deformable(model, model.solids, "*ELEMENT_SOLID", "solids", diagnostics);
+  refuse_deformable(model, model.beams, "*ELEMENT_BEAM", "beams", diagnostics);
+  refuse_deformable(model, model.discretes, "*ELEMENT_DISCRETE", "springs", diagnostics);
+  state.discretes.assign(model.discretes.size(), DiscreteReport{});
+  state.energy.part_internal.assign(model.parts.size(), 0.0);
+  state.energy.part_hourglass.assign(model.parts.size(), 0.0);
+  impl_->internal.assign(model.parts.size(), 0.0);
+  impl_->hourglass.assign(model.parts.size(), 0.0);
+}
+
+ElementSystem::~ElementSystem() = default;
+ElementSystem::ElementSystem(ElementSystem&&) noexcept = default;
+ElementSystem& ElementSystem::operator=(ElementSystem&&) noexcept = default;
+
+void ElementSystem::internal_forces(const Model&, State&) {}
+
+double ElementSystem::stable_time_step() const { return unlimited; }
+
+Governing ElementSystem::governing() const { return {ElementKind::shell, 0, stable_time_step()}; }
+
+double ElementSystem::rigid_courant_time_step(const Model& model, const State& state) const {
+  double dt = unlimited;
+  const auto each = [&](const auto& block, auto&& step) {
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      if (!model.rigid_part(block.part[e])) continue;
+      const Part& part = model.parts[static_cast<std::size_t>(block.part[e])];
+      const BulkProperties bulk = bulk_properties(model.materials[static_cast<std::size_t>(part.material)]);
+      const double own = step(e, bulk);
+      if (own > 0) dt = std::min(dt, own);  // NaN and 0: an element without stiffness, density or size limits nothing
+    }
+  };
+  const int isdo = model.control.time_step.isdo;
+  each(model.shells, [&](std::size_t e, const BulkProperties& m) {
+    const auto& n = model.shells.nodes[e];
+    return shell_length(gather_coordinates(state.nodes.x, n), is_triangle(n), isdo) / plate_speed(m);
+  });
+  each(model.solids, [&](std::size_t e, const BulkProperties& m) {
+    const auto& n = model.solids.nodes[e];
+    return solid_length(gather_coordinates(state.nodes.x, n), distinct_nodes(n)) / solid_speed(m);
+  });
+  each(model.beams, [&](std::size_t e, const BulkProperties& m) {
+    const auto x = gather_coordinates(state.nodes.x, std::array{model.beams.nodes[e][0], model.beams.nodes[e][1]});
+    return norm(x[1] - x[0]) / bar_speed(m);
+  });
+  return dt;
+}
+
+void ElementSystem::account(const Model&, State& state) {
+  state.energy.part_internal = impl_->internal;
+  state.energy.part_hourglass = impl_->hourglass;
+}
+
+}  // namespace kardan

@@ -1,0 +1,56 @@
+// Finite elements and discrete elements: the stage `elements` of the step.
+#pragma once
+
+#include <memory>
+
+#include "kardan/base/diagnostics.hpp"
+#include "kardan/model/model.hpp"
+#include "kardan/state/state.hpp"
+
+namespace kardan {
+
+/// The element that governs the time step.
+struct Governing {
+  ElementKind kind = ElementKind::shell;
+  UserId element = 0;   ///< the user's number; 0 = no element limits dt
+  double time_step = 0; ///< its stable time step, unscaled
+};
+
+class ElementSystem {
+ public:
+  /// Adds the lumped masses of all elements, rigid ones too, and of point masses to state.nodes.mass, the rotary inertia
+  /// of deformable shells to state.nodes.inertia; marks state.nodes.needed for every node a deformable or discrete
+  /// element touches; sizes state.discretes and the energies by part; registers the elements' history in state.registry.
+  /// state.nodes must be sized and state.nodes.x set.
+  /// Errors (a deformable material that this version does not compute, an element without area or volume, a part without
+  /// section …) go to `diagnostics`; with an error the system must not be used.
+  ElementSystem(const Model& model, State& state, Diagnostics& diagnostics);
+  ~ElementSystem();
+  ElementSystem(ElementSystem&&) noexcept;
+  ElementSystem& operator=(ElementSystem&&) noexcept;
+
+  /// At t_n, with velocities at t_{n-1/2} and state.clock.dt_previous: stresses and spring forces are brought to t_n, and
+  /// the forces that the elements exert ON the nodes are added to state.nodes.force and .moment. Call once a cycle.
+  /// @throws RunError naming the element whose area vanished or whose force is not finite.
+  void internal_forces(const Model& model, State& state);
+
+  /// Largest stable step at t_n of the deformable and discrete elements, without TSSFAC; +infinity if there are none.
+  /// Valid after internal_forces().
+  double stable_time_step() const;
+  /// The element that stable_time_step() belongs to.
+  Governing governing() const;
+
+  /// Smallest step the elements of rigid parts would have if they were deformable (E, nu, density of their *MAT_RIGID),
+  /// +infinity if there are none: LS-DYNA takes it for decks with nothing deformable.
+  double rigid_courant_time_step(const Model& model, const State& state) const;
+
+  /// Between kick and drift: internal and hourglass energies by part and in sum, and the energy of springs and dampers,
+  /// at t_n, into state.energy.
+  void account(const Model& model, State& state);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kardan

@@ -1,0 +1,52 @@
+#include "kardan/elements/geometry.hpp"
+
+#include <cmath>
+
+namespace kardan {
+
+namespace {
+
+constexpr std::array<std::array<double, 3>, 8> natural{{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                                        {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
+
+constexpr std::array<std::array<std::size_t, 4>, 6> faces{
+    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+
+}  // namespace
+
+double hexahedron_volume(const ElementCoordinates<8>& x) {
+  const double g = 1.0 / std::sqrt(3.0);
+  double volume = 0;
+  for (const auto& point : natural) {
+    const double r = g * point[0], s = g * point[1], t = g * point[2];
+    Mat3 jacobian;  // row i: derivatives of x with respect to natural coordinate i
+    for (std::size_t a = 0; a < 8; ++a) {
+      const auto& n = natural[a];
+      jacobian[0] += x[a] * (0.125 * n[0] * (1 + s * n[1]) * (1 + t * n[2]));
+      jacobian[1] += x[a] * (0.125 * n[1] * (1 + r * n[0]) * (1 + t * n[2]));
+      jacobian[2] += x[a] * (0.125 * n[2] * (1 + r * n[0]) * (1 + s * n[1]));
+    }
+    volume += determinant(jacobian);
+  }
+  return volume;
+}
+
+int distinct_nodes(const std::array<NodeIndex, 8>& nodes) {
+  int count = 0;
+  for (std::size_t a = 0; a < 8; ++a) {
+    bool seen = false;
+    for (std::size_t b = 0; b < a; ++b) seen = seen || nodes[b] == nodes[a];
+    if (!seen) ++count;
+  }
+  return count;
+}
+
+double solid_length(const ElementCoordinates<8>& x, int distinct) {
+  double largest = 0;
+  for (const auto& f : faces) {
+    largest = std::max(largest, 0.5 * norm(cross(x[f[2]] - x[f[0]], x[f[3]] - x[f[1]])));
+  }
+  return (distinct == 4 ? 3.0 : 1.0) * std::abs(hexahedron_volume(x)) / largest;
+}
+
+}  // namespace kardan

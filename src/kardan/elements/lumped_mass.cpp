@@ -1,0 +1,193 @@
+#include "kardan/elements/lumped_mass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "kardan/elements/geometry.hpp"
+
+namespace kardan {
+
+namespace {
+
+/// Section and material of a part, checked once a part instead of once an element.
+struct PartProperties {
+  const Section* section = nullptr;  ///< null if the part cannot be used
+  BulkProperties bulk;
+  bool rigid = false;
+};
+
+std::string part_name(const Part& part) {
+  return "part " + std::to_string(part.id) + (part.title.empty() ? "" : " \"" + part.title + "\"");
+}
+
+/// Properties of every part that has elements of this kind; complains once a part.
+class PartTable {
+ public:
+  PartTable(const Model& model, ElementKind kind, const std::vector<PartIndex>& part_of_element, Diagnostics& diagnostics)
+      : entries_(model.parts.size()) {
+    std::vector<bool> used(model.parts.size(), false);
+    for (const PartIndex p : part_of_element) used[static_cast<std::size_t>(p)] = true;
+    for (std::size_t p = 0; p < used.size(); ++p) {
+      if (used[p]) entries_[p] = look_up(model, kind, model.parts[p], diagnostics);
+    }
+  }
+  const PartProperties& operator[](PartIndex p) const { return entries_[static_cast<std::size_t>(p)]; }
+
+ private:
+  static PartProperties look_up(const Model& model, ElementKind kind, const Part& part, Diagnostics& diagnostics) {
+    if (part.section == none || part.material == none) {
+      diagnostics.error(part_name(part) + " has elements but no " + (part.section == none ? "section" : "material"),
+                        "give SECID and MID of the part the numbers of a *SECTION and a *MAT", "*PART");
+      return {};
+    }
+    const Section& section = model.sections[static_cast<std::size_t>(part.section)];
+    if (section.kind != kind) {
+      static constexpr const char* names[] = {"shell", "solid", "beam", "discrete"};
+      diagnostics.error(part_name(part) + " has " + names[static_cast<int>(kind)] + " elements but a " +
+                            names[static_cast<int>(section.kind)] + " section (" + std::to_string(section.id) + ")",
+                        "give SECID the number of a section of the elements' kind", "*PART");
+      return {};
+    }
+    const Material& material = model.materials[static_cast<std::size_t>(part.material)];
+    return {&section, bulk_properties(material), material.rigid()};
+  }
+
+  std::vector<PartProperties> entries_;
+};
+
+/// Adds equal shares of `mass` to the distinct nodes among the first `count`; returns the share.
+template <std::size_t N>
+double share_mass(std::vector<double>& nodal, const std::array<NodeIndex, N>& nodes, int distinct, double mass) {
+  const double share = mass / distinct;
+  for (std::size_t a = 0; a < N; ++a) {
+    if (std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(a), nodes[a]) ==
+        nodes.begin() + static_cast<std::ptrdiff_t>(a)) {
+      nodal[static_cast<std::size_t>(nodes[a])] += share;
+    }
+  }
+  return share;
+}
+
+void add_shells(const Model& model, State& state, Diagnostics& diagnostics) {
+  const ShellElements& shells = model.shells;
+  const PartTable parts(model, ElementKind::shell, shells.part, diagnostics);
+  for (std::size_t e = 0; e < shells.size(); ++e) {
+    const PartProperties& part = parts[shells.part[e]];
+    if (part.section == nullptr) continue;
+    const auto& nodes = shells.nodes[e];
+    const double area = shell_area(gather_coordinates(model.nodes.x, nodes));
+    const double thickness = mean_thickness(model, static_cast<Index>(e));
+    const double mass = area * (thickness * part.bulk.density + part.section->shell.mass_per_area);
+    if (!(area > 0) || !(thickness > 0)) {
+      diagnostics.error("shell " + std::to_string(shells.id[e]) + " has " + (area > 0 ? "no thickness" : "no area"),
+                        area > 0 ? "give T1 of its section" : "check the coordinates of its nodes", "*ELEMENT_SHELL");
+      continue;
+    }
+    const bool triangle = is_triangle(nodes);
+    const double share = share_mass(state.nodes.mass, nodes, triangle ? 3 : 4, mass);
+    if (part.rigid) continue;
+    const double inertia = share * std::max(thickness * thickness / 12.0, area / 8.0);
+    for (std::size_t a = 0; a < (triangle ? 3u : 4u); ++a) state.nodes.inertia[static_cast<std::size_t>(nodes[a])] += inertia;
+  }
+}
+
+void add_solids(const Model& model, State& state, Diagnostics& diagnostics) {
+  const SolidElements& solids = model.solids;
+  const PartTable parts(model, ElementKind::solid, solids.part, diagnostics);
+  for (std::size_t e = 0; e < solids.size(); ++e) {
+    const PartProperties& part = parts[solids.part[e]];
+    if (part.section == nullptr) continue;
+    const auto& nodes = solids.nodes[e];
+    const double volume = hexahedron_volume(gather_coordinates(model.nodes.x, nodes));
+    // A rigid solid only carries mass, and a mesh mirrored from its other half is common: its orientation does not matter.
+    if (volume == 0 || (volume < 0 && !part.rigid)) {
+      diagnostics.error("solid " + std::to_string(solids.id[e]) + " has the volume " + std::to_string(volume),
+                        "number its nodes so that the fourth to first face points inwards, or check their coordinates",
+                        "*ELEMENT_SOLID");
+      continue;
+    }
+    share_mass(state.nodes.mass, nodes, distinct_nodes(nodes), std::abs(volume) * part.bulk.density);
+  }
+}
+
+void add_beams(const Model& model, State& state, Diagnostics& diagnostics) {
+  const BeamElements& beams = model.beams;
+  const PartTable parts(model, ElementKind::beam, beams.part, diagnostics);
+  constexpr int discrete_beam = 6;
+  for (std::size_t e = 0; e < beams.size(); ++e) {
+    const PartProperties& part = parts[beams.part[e]];
+    if (part.section == nullptr) continue;
+    const std::array<NodeIndex, 2> ends{beams.nodes[e][0], beams.nodes[e][1]};
+    const auto x = gather_coordinates(model.nodes.x, ends);
+    const BeamSection& section = part.section->beam;
+    const double volume =
+        section.elform == discrete_beam ? section.volume : beam_area(section) * norm(x[1] - x[0]);
+    if (!(volume > 0) && part.bulk.density > 0) {
+      diagnostics.error("beam " + std::to_string(beams.id[e]) + " of part " +
+                            std::to_string(model.parts[static_cast<std::size_t>(beams.part[e])].id) + " has no volume",
+                        "give its section an area (TS1/TT1, A, or VOL of ELFORM 6), its nodes a distance", "*SECTION_BEAM");
+      continue;
+    }
+    share_mass(state.nodes.mass, ends, 2, volume * part.bulk.density);
+    if (section.elform == discrete_beam && !part.rigid) {
+      for (const NodeIndex n : ends) state.nodes.inertia[static_cast<std::size_t>(n)] += 0.5 * section.inertia;
+    }
+  }
+}
+
+}  // namespace
+
+BulkProperties bulk_properties(const Material& material) {
+  return std::visit(
+      [](const auto& law) -> BulkProperties {
+        if constexpr (std::is_same_v<std::decay_t<decltype(law)>, SpringMaterial>) {
+          return {};
+        } else {
+          return {law.density, law.youngs_modulus, law.poissons_ratio};
+        }
+      },
+      material.law);
+}
+
+std::array<double, 4> shell_thickness(const Model& model, Index shell) {
+  if (const auto own = model.shells.thickness.find(shell); own != model.shells.thickness.end()) return own->second;
+  const Part& part = model.parts[static_cast<std::size_t>(model.shells.part[static_cast<std::size_t>(shell)])];
+  std::array<double, 4> t = model.sections[static_cast<std::size_t>(part.section)].shell.thickness;
+  for (double& node : t) node = node == 0 ? t[0] : node;
+  return t;
+}
+
+double mean_thickness(const Model& model, Index shell) {
+  const std::array<double, 4> t = shell_thickness(model, shell);
+  if (is_triangle(model.shells.nodes[static_cast<std::size_t>(shell)])) return (t[0] + t[1] + t[2]) / 3.0;
+  return 0.25 * (t[0] + t[1] + t[2] + t[3]);
+}
+
+double beam_area(const BeamSection& section) {
+  const bool by_sizes = section.elform == 1 || section.elform == 4 || section.elform == 5 || section.elform == 9;
+  if (!by_sizes || section.cst == 2) return section.area;
+  const auto& ts = section.ts;
+  const auto& tt = section.tt;
+  const auto end = [&](std::size_t i) {
+    const double s = i == 1 && ts[1] == 0 ? ts[0] : ts[i], t = i == 1 && tt[1] == 0 ? tt[0] : tt[i];
+    return section.cst == 1 ? 0.25 * std::numbers::pi * (s * s - t * t) : s * t;
+  };
+  return 0.5 * (end(0) + end(1));
+}
+
+void add_lumped_masses(const Model& model, State& state, Diagnostics& diagnostics) {
+  add_shells(model, state, diagnostics);
+  add_solids(model, state, diagnostics);
+  add_beams(model, state, diagnostics);
+  for (const PointMass& m : model.masses) state.nodes.mass[static_cast<std::size_t>(m.node)] += m.mass;
+  for (const PointInertia& m : model.inertias) {
+    state.nodes.mass[static_cast<std::size_t>(m.node)] += m.mass;
+    state.nodes.inertia[static_cast<std::size_t>(m.node)] += trace(m.inertia) / 3.0;
+  }
+}
+
+}  // namespace kardan
