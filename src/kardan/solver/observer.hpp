@@ -50,7 +50,8 @@ class Observer {
   /// Asked every cycle, so it must be cheap: does this observer want the state at t_n? It is not asked about the last
   /// state, which everybody gets.
   virtual bool due(const State& state, const StepView& view) = 0;
-  /// False if only bodies, joints and energies are looked at: then the nodes of rigid bodies are not brought up to date.
+  /// False if only bodies and energies are looked at: then the nodes of rigid bodies and the joints' reports are not brought
+  /// up to date for it.
   virtual bool reads_nodes() const { return true; }
   virtual void at(const Model& model, const State& state, const StepView& view) = 0;
 };

@@ -25,6 +25,7 @@ namespace kardan {
 
 class ElementSystem;
 class LoadSystem;
+class NodeMover;
 
 /// What the command line can override.
 struct SolverOptions {
@@ -79,7 +80,6 @@ class Solver {
   void clear_forces();
   void choose_time_step();
   void account();
-  void check_forces() const;
   StopReason reason_to_stop() const;
   void notify();
 
@@ -88,11 +88,13 @@ class Solver {
   std::unique_ptr<ElementSystem> elements_;
   std::unique_ptr<LoadSystem> loads_;
   std::unique_ptr<RigidSystem> rigid_;
-  std::unique_ptr<class NodeMover> nodes_;
+  std::unique_ptr<NodeMover> nodes_;
   std::unique_ptr<TimeStepRule> rule_;
   ClockHand clock_hand_;
   StepBound step_;
   double first_dt_ = 0, end_time_ = 0;
+  std::int64_t elements_processed_ = 0;
+  std::vector<NodeIndex> summed_nodes_;  // nodes that receive forces: all but the idle nodes of bodies
   StopReason stop_ = StopReason::running;
   std::atomic<bool> stop_requested_{false};
   std::vector<Observer*> observers_;

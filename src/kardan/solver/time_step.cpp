@@ -81,8 +81,8 @@ StepBound TimeStepRule::next(const Model& model, const Clock& clock, const StepB
   const double rest = end_ - clock.time;
   if (rest <= 0) return step;  // the kick at the end time: as if the run went on
   if (std::abs(rest - step.dt) <= same_step * step.dt) return step;
-  if (rest < step.dt) return {rest, {}, "end time"};
-  if (rest < 2 * step.dt * (1 - same_step)) return {0.5 * rest, {}, "end time"};
+  if (rest < step.dt) return {rest, {}, "end time", true};
+  if (rest < 2 * step.dt * (1 - same_step)) return {0.5 * rest, {}, "end time", true};
   return step;
 }
 

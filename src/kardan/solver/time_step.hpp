@@ -15,6 +15,7 @@ struct StepBound {
   double dt = std::numeric_limits<double>::infinity();
   TimeStepOwner owner;
   const char* rule = nullptr;  ///< "DTINIT", "LCTM", "rotation" … where no element sets it; static storage
+  bool to_end = false;         ///< shortened so that the run ends at its end time
 };
 /// "shell 4711", "joint 3", "DTINIT": for the progress line.
 std::string to_string(const StepBound& bound);

@@ -1,0 +1,203 @@
+#include "kardan/solver/solver.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kardan/elements/element_system.hpp"
+#include "kardan/loads/load_system.hpp"
+#include "kardan/solver/node_mover.hpp"
+
+namespace kardan {
+
+namespace {
+
+template <class Block>
+std::int64_t count_deformable(const Model& model, const Block& block) {
+  return std::count_if(block.part.begin(), block.part.end(), [&](PartIndex p) { return !model.rigid_part(p); });
+}
+
+TimeStepOwner owner_of(const Governing& governing) {
+  using Kind = TimeStepOwner::Kind;
+  static constexpr Kind kinds[] = {Kind::shell, Kind::solid, Kind::beam, Kind::discrete};  // by ElementKind
+  return {kinds[static_cast<int>(governing.kind)], governing.element, 0};
+}
+
+}  // namespace
+
+HoldingChoice joint_holding(const Model& model, std::optional<JointHolding> given) {
+  if (given)
+    return {*given, fmt::format("joints: {} (--joints)", *given == JointHolding::exact ? "exact" : "penalty")};
+  switch (model.control.rigid.lmf) {
+    case 1:
+      return {JointHolding::exact, "joints: exact (*CONTROL_RIGID LMF = 1)"};
+    case 0:
+      return {JointHolding::exact,
+              "joints: exact; LMF = 0 of *CONTROL_RIGID is LS-DYNA's default and cannot be told from a blank field: say "
+              "--joints penalty for penalty joints"};
+    default:
+      return {JointHolding::exact, "joints: exact (Kardan's default)"};
+  }
+}
+
+Solver::Solver(const Model& model, const SolverOptions& options, Diagnostics& diagnostics) : model_(model) {
+  timers_.start();
+  omp_set_num_threads(std::max(1, options.threads));
+  end_time_ = options.end_time.value_or(model.control.termination.end_time);
+  set_up(options, diagnostics);
+  if (!diagnostics.ok()) throw InputError(diagnostics);
+  register_state();
+  timers_.lap(Phase::setup);
+}
+
+Solver::~Solver() = default;
+
+void Solver::set_up(const SolverOptions& options, Diagnostics& diagnostics) {
+  if (!(end_time_ > 0))
+    diagnostics.error("the run has no end time", "give ENDTIM > 0, or --end on the command line", "*CONTROL_TERMINATION");
+  if (options.dt && !(*options.dt > 0)) diagnostics.error("the time step of --dt must be positive");
+
+  state_.nodes.resize(model_.nodes.size());
+  state_.nodes.x = model_.nodes.x;
+  elements_ = std::make_unique<ElementSystem>(model_, state_, diagnostics);
+  const HoldingChoice choice = joint_holding(model_, options.joints);
+  if (!model_.joints.empty()) diagnostics.notice(choice.reason);
+  rigid_ = std::make_unique<RigidSystem>(model_, state_, choice.holding, diagnostics);
+  if (!diagnostics.ok()) return;
+  loads_ = std::make_unique<LoadSystem>(model_, state_, diagnostics);
+  if (!diagnostics.ok()) return;
+  LoadSystem::set_initial_velocities(model_, state_, diagnostics);
+  rigid_->set_initial_velocities(model_, state_, diagnostics);
+  nodes_ = std::make_unique<NodeMover>(model_, state_, diagnostics);
+
+  for (std::size_t i = 0; i < state_.nodes.x.size(); ++i)
+    if (state_.nodes.body[i] == none || state_.nodes.needed[i]) summed_nodes_.push_back(static_cast<NodeIndex>(i));
+  const std::int64_t deformable = count_deformable(model_, model_.shells) + count_deformable(model_, model_.solids) +
+                                  count_deformable(model_, model_.beams);
+  elements_processed_ = deformable + static_cast<std::int64_t>(model_.discretes.size());
+  StepFacts facts;
+  facts.deformable = deformable > 0;
+  facts.rigid_elements = {elements_->rigid_courant_time_step(model_, state_), {}, "rigid elements"};
+  facts.rigid_default = rigid_->default_time_step(model_, state_);
+  rule_ = std::make_unique<TimeStepRule>(model_, facts, options.dt, end_time_);
+  diagnostics.notice(rule_->reason());
+}
+
+void Solver::register_state() {
+  Registry& registry = state_.registry;
+  Clock& clock = state_.clock;
+  registry.add_value({"clock.cycle", "1", "solver"}, clock.cycle);
+  registry.add_value({"clock.time", "time", "solver"}, clock.time);
+  registry.add_value({"clock.carry", "time", "solver"}, clock_hand_.carry());
+  registry.add_value({"clock.dt", "time", "solver"}, clock.dt);
+  registry.add_value({"clock.dt_previous", "time", "solver"}, clock.dt_previous);
+  registry.add({"nodes.x", "length", "nodes.drift, rigid.drift"}, state_.nodes.x);
+  registry.add({"nodes.v", "length/time", "nodes.kick, rigid.drift"}, state_.nodes.v);
+  registry.add({"nodes.omega", "1/time", "nodes.kick, rigid.drift"}, state_.nodes.omega);
+  registry.add({"nodes.force", "force", "elements, loads"}, state_.nodes.force);
+  registry.add({"nodes.moment", "force*length", "elements, loads"}, state_.nodes.moment);
+  registry.add({"bodies.motion", "length, 1, length/time, mass*length^2/time", "rigid"}, state_.bodies.motion);
+  registry.add_value({"energy.external_work", "energy", "loads, rigid"}, state_.energy.external_work);
+}
+
+StopReason Solver::run() {
+  while (step()) {
+  }
+  return stop_;
+}
+
+bool Solver::step() {
+  if (stop_ != StopReason::running) return false;
+  timers_.start();
+  try {
+    clear_forces();
+    loads_->apply(model_, state_);
+    timers_.lap(Phase::loads);
+    elements_->internal_forces(model_, state_);
+    timers_.lap(Phase::elements);
+    choose_time_step();
+    timers_.lap(Phase::time_step);
+    rigid_->kick(model_, state_);
+    timers_.lap(Phase::rigid);
+    nodes_->kick(model_, state_);
+    loads_->constrain_velocities(model_, state_);
+    nodes_->settle(state_);
+    timers_.lap(Phase::nodes);
+    account();
+    timers_.lap(Phase::ledger);
+    stop_ = reason_to_stop();
+  } catch (const RunError&) {
+    stop_ = StopReason::broken;
+    notify();
+    throw;
+  }
+  notify();
+  timers_.lap(Phase::observers);
+  if (stop_ != StopReason::running) return false;
+  rigid_->drift(model_, state_);
+  timers_.lap(Phase::rigid);
+  nodes_->drift(state_);
+  clock_hand_.advance(state_.clock, end_time_);
+  timers_.lap(Phase::nodes);
+  return true;
+}
+
+void Solver::clear_forces() {
+  for (NodeIndex node : summed_nodes_)
+    state_.nodes.force[static_cast<std::size_t>(node)] = state_.nodes.moment[static_cast<std::size_t>(node)] = {};
+  for (std::vector<Vec3>* sums : {&state_.bodies.force, &state_.bodies.moment})
+    std::fill(sums->begin(), sums->end(), Vec3{});
+}
+
+void Solver::choose_time_step() {
+  StepBound stable;
+  stable.dt = elements_->stable_time_step();
+  if (std::isfinite(stable.dt)) stable.owner = owner_of(elements_->governing());
+  step_ = rule_->next(model_, state_.clock, stable, rigid_->stable_time_step(state_));
+  if (!(step_.dt > 0) || !std::isfinite(step_.dt))
+    throw RunError(fmt::format("time step {:g} (set by {}) at t = {:g}, cycle {}", step_.dt, to_string(step_),
+                               state_.clock.time, state_.clock.cycle));
+  state_.clock.dt = step_.dt;
+  state_.step_owner = step_.owner;
+  if (state_.clock.cycle == 0) first_dt_ = step_.dt;
+}
+
+void Solver::account() {
+  EnergyLedger& energy = state_.energy;
+  energy.begin(model_.parts.size());
+  loads_->account(model_, state_);
+  elements_->account(model_, state_);
+  rigid_->account(model_, state_);
+  nodes_->account(state_);
+  if (state_.clock.cycle == 0) energy.initial = energy.total();
+}
+
+StopReason Solver::reason_to_stop() const {
+  const Termination& termination = model_.control.termination;
+  if (state_.clock.time >= end_time_) return StopReason::end_time;
+  if (termination.end_cycle > 0 && state_.clock.cycle >= termination.end_cycle) return StopReason::end_cycle;
+  if (!step_.to_end && state_.clock.dt < termination.dt_min * first_dt_) return StopReason::min_step;
+  if (termination.end_energy > 0 && std::abs(state_.energy.ratio() - 1) * 100 > termination.end_energy)
+    return StopReason::energy;
+  if (stop_requested_.load(std::memory_order_relaxed)) return StopReason::interrupted;
+  return StopReason::running;
+}
+
+StepView Solver::view() const { return {step_, timers_, end_time_, stop_, elements_processed_}; }
+
+void Solver::notify() {
+  const StepView now = view();
+  bool reports_current = false;
+  for (Observer* observer : observers_) {
+    if (!now.last() && !observer->due(state_, now)) continue;
+    if (!reports_current && observer->reads_nodes()) {
+      rigid_->update_reports(model_, state_);
+      reports_current = true;
+    }
+    observer->at(model_, state_, now);
+  }
+}
+
+}  // namespace kardan
