@@ -28,13 +28,15 @@
 
 #include "kardan/base/diagnostics.hpp"
 #include "kardan/base/vec3.hpp"
+#include "kardan/io/deck/number.hpp"
+#include "kardan/io/deck/parameters.hpp"
 #include "kardan/io/deck/schema.hpp"
 
 namespace kardan::deck {
 
-class Parameters;   // parameters.hpp
 struct SourceFile;  // source.hpp
 class Block;
+class DeckReader;  // reader.hpp
 
 /// Whose number an ID is: *INCLUDE_TRANSFORM shifts each kind by its own offset.
 enum class IdKind { node, element, part, material, set, curve, define, other };
@@ -69,7 +71,7 @@ struct IncludeContext {
   double factor(Dimension d) const;
 };
 
-/// One data line read with one card layout. Copyable and cheap; valid as long as its Deck lives.
+/// One data line read with one card layout. Copyable and cheap; valid as long as its Block stays where it is.
 /// A field is named (lower case) or addressed by its index in the layout, which is the fast way for large tables.
 /// A malformed field is reported and its default returned; so is a field of a missing card, silently.
 class Card {
@@ -111,17 +113,19 @@ class Card {
   SourceLocation where(int field) const;
   /// The line as it stands in the deck (without line end).
   std::string_view line() const { return line_; }
-  /// Reports a fault of one field or of the whole card, with location and keyword filled in.
+  /// Reports a fault of one field, or of the whole card, with location and keyword filled in.
   void error(std::string_view field, std::string message, std::string cure = {}) const;
-  void error(std::string message, std::string cure = {}) const;
+  void error_on_card(std::string message, std::string cure = {}) const;
   void warning(std::string_view field, std::string message, std::string cure = {}) const;
 
  private:
   friend class Block;
+  friend class DeckReader;
   std::string_view field_text(int field, int& column) const;
   std::string_view free_field(int position, bool to_end, int& column) const;
-  std::optional<double> evaluated(std::string_view text, const FieldLayout& field, int column) const;
-  void malformed(const FieldLayout& field, int column, std::string_view found, std::string_view expected) const;
+  /// Value of a field that refers to parameters; reports why there is none.
+  std::optional<ParameterValue> evaluated(std::string_view text, const FieldLayout& field, int column) const;
+  void malformed(const FieldLayout& field, int column, std::string_view found, NumberState state) const;
   void report(Severity severity, std::string field, int column, std::string message, std::string cure) const;
 
   const Block* block_ = nullptr;
@@ -177,8 +181,9 @@ class Block {
   friend class Card;
   friend class DeckReader;
   Card absent(std::string_view card) const;
-  bool advance(Card& card);                              // next non-blank line into `card`
-  bool take_line(std::string_view& line, int& number);   // next data line, blank or not
+  bool advance(Card& card);                             // next non-blank line into `card`
+  bool take_line(std::string_view& line, int& number);  // next data line, blank or not
+  bool scan(std::size_t& cursor, int& next_number, std::string_view& line, int& number) const;
   void open(Card& card, std::string_view line, int number) const;
 
   std::string as_written_;
@@ -188,7 +193,7 @@ class Block {
   CardFormat format_ = CardFormat::standard;
   bool has_commas_ = false, has_references_ = false, has_tabs_ = false;
   std::shared_ptr<const SourceFile> file_;
-  std::shared_ptr<const Parameters> parameters_;
+  ParameterView parameters_;
   std::shared_ptr<const IncludeContext> context_;
   Diagnostics* diagnostics_ = nullptr;
 };
@@ -209,6 +214,7 @@ struct ReadOptions {
   std::filesystem::path confine_to;
   int max_include_depth = 64;
   std::size_t max_files = 10'000;
+  std::size_t max_bytes = std::size_t{64} << 30;  ///< of text, all files together
 };
 
 /// Reads a deck and everything it includes. `diagnostics` must outlive the Deck: its blocks report into it while they are
