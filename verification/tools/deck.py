@@ -85,7 +85,7 @@ class Deck:
     def body(self, part, title, mass, center, inertia, half, axes=None, show=None, velocity=None):
         """A body with given mass properties: `inertia` about the centre, in `axes` (three unit rows) or global axes.
 
-        `half` are the half sides of the hexahedron, along `axes`, about `show` (the centre where not given)."""
+        It is shown as a hexahedron of half sides `half`: along `axes` about the centre, or as `show` = (centre, axes)."""
         i = inertia
         self.parts += ["*PART_INERTIA", title, "$ pid, section, material", card(part, 1, 1),
                        "$ centre of mass, mass, IRCS", card(*center, mass, 0 if axes is None else 1),
@@ -95,7 +95,8 @@ class Deck:
         self.parts += ["$ initial velocity of the centre, angular velocity (global axes)", card(*v)]
         if axes is not None:
             self.parts += ["$ local x axis, a vector in the local xy plane", card(*axes[0], *axes[1])]
-        self.box(part, show or center, half, axes or GLOBAL)
+        at, along = show or (center, axes or GLOBAL)
+        self.box(part, at, half, along)
 
     def joint(self, kind, number, title, a, b, points):
         """A joint between bodies a and b: each point gets one node on each of them; points may be pairs (on a, on b)."""

@@ -27,12 +27,8 @@ def rod(deck, part, title, mass, inertia, a, b, width=0.02, velocity=None):
     """A straight link from a to b with its centre in the middle, `inertia` in global axes."""
     middle, along = scale(0.5, add(a, b)), unit(sub(b, a))
     side = unit(cross(Z if abs(along[2]) < 0.9 else X, along))
-    length = math.sqrt(dot(sub(b, a), sub(b, a)))
-    deck.body(part, title, mass, middle, inertia, (width, width, width))
-    # replace the box by one along the link
-    deck.solids.pop()
-    del deck.nodes[-8:]
-    deck.box(part, middle, (0.5 * length, width / 2, width / 2), [along, side, cross(along, side)])
+    half = 0.5 * math.sqrt(dot(sub(b, a), sub(b, a)))
+    deck.body(part, title, mass, middle, inertia, (half, width / 2, width / 2), show=(middle, [along, side, cross(along, side)]))
     if velocity:
         deck.initial(part, *velocity)
 
@@ -118,10 +114,7 @@ Starts at rest. Parts 11 ... 17 are K1 ... K7; B, E, D of the triangle K3 belong
         along = unit(sub(b, a))
         length = math.sqrt(dot(sub(b, a), sub(b, a)))
         k.body(11 + i, f"K{i + 1}", mass[i], com[i], diag(inertia[i], inertia[i], inertia[i]), (0.5 * length, 5e-4, 5e-4),
-               show=scale(0.5, add(a, b)))
-        k.solids.pop()
-        del k.nodes[-8:]
-        k.box(11 + i, scale(0.5, add(a, b)), (0.5 * length, 5e-4, 5e-4), [along, cross(Z, along), Z])
+               show=(scale(0.5, add(a, b)), [along, cross(Z, along), Z]))
     pairs = [("O", 1, 11), ("F", 11, 12), ("E", 12, 13), ("E", 12, 14), ("E", 12, 16), ("B", 1, 13), ("G", 14, 15),
              ("A", 1, 15), ("A", 1, 17), ("H", 16, 17)]
     for number, (name, a, b) in enumerate(pairs):
@@ -449,7 +442,7 @@ def laws():
         if len(set(parts)) > 1:
             k.text("*CONSTRAINED_RIGID_BODIES", "3,4", "2,3")
         k.text("$ the whole body turns about the support", "*INITIAL_VELOCITY_GENERATION",
-               card(0, 1, 0, 0, 0, 0) if False else card(2, 2, 6, 0, 0, 0), card(0, 0, 0, 0.6, 0.0, 0.8))
+               card(2, 2, 6, 0, 0, 0), card(0, 0, 0, 0.6, 0.0, 0.8))
         if len(set(parts)) > 1:
             for part in (3, 4):
                 k.text("*INITIAL_VELOCITY_GENERATION", card(part, 2, 6, 0, 0, 0), card(0, 0, 0, 0.6, 0.0, 0.8))
@@ -459,7 +452,7 @@ def laws():
     k = Deck("PART_INERTIA overrides the mesh", """The mesh of the part weighs 7850 * 0.1 * 0.1 * 0.1 kg = 7.85 kg about the origin; *PART_INERTIA gives 2 kg at
 (0.3, 0, 0) and Izz = 0.05 kg m2. A force of 4 N along x and a moment of 0.2 N m about z act on it:
 x = 0.3 + t2, angle = 2 t2.""", 1, 1e-5, 0.01)
-    k.body(1, "body", 2.0, [0.3, 0, 0], diag(0.03, 0.04, 0.05), (0.05, 0.05, 0.05), show=[0, 0, 0])
+    k.body(1, "body", 2.0, [0.3, 0, 0], diag(0.03, 0.04, 0.05), (0.05, 0.05, 0.05), show=([0, 0, 0], GLOBAL))
     k.constant_curve()
     k.text("*LOAD_RIGID_BODY", card(1, 1, 1, 4), card(1, 7, 1, 0.2))
     k.write(path("law_part_inertia", "part_inertia.k"))

@@ -223,9 +223,12 @@ Signal make_signal(const json& description, const Model& model, const State& sta
         const auto v = signal(s);
         return std::vector{v.at(0) * axis.x + v.at(1) * axis.y + v.at(2) * axis.z};
       };
-    if (description.contains("component"))
-      signal = [signal, i = description["component"].get<std::size_t>()](const State& s) {
-        return std::vector{signal(s).at(i)};
+    if (description.contains("components"))
+      signal = [signal, pick = description["components"].get<std::vector<std::size_t>>()](const State& s) {
+        const auto v = signal(s);
+        std::vector<double> picked;
+        for (const std::size_t i : pick) picked.push_back(v.at(i));
+        return picked;
       };
     if (description.value("norm", false)) signal = [signal](const State& s) { return std::vector{length(signal(s))}; };
     if (description.contains("factor") || description.contains("offset"))
