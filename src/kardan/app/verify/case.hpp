@@ -23,7 +23,7 @@ struct Run {
   double sample = 0;        ///< interval at which signals are recorded
   std::int64_t steps = 1;   ///< cycles in one such interval
   double end = 0;           ///< time of the last sample
-  bool is_long = false;     ///< takes more than some ten seconds: belongs to the group "<group>-long"
+  bool is_long = false;     ///< takes too long for every test run: only with "-long" behind the name
 
   double dt() const { return sample / static_cast<double>(steps); }
 };

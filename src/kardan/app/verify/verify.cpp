@@ -106,9 +106,8 @@ void list(const std::vector<Case>& cases, std::ostream& out) {
 std::vector<std::pair<const Case*, Selection>> select(const std::vector<Case>& cases, const std::string& name) {
   std::vector<std::pair<const Case*, Selection>> chosen;
   for (const Case& c : cases) {
-    if (name == c.name) chosen.emplace_back(&c, Selection::all);
-    if (name == c.group) chosen.emplace_back(&c, Selection::quick);
-    if (name == c.group + "-long") chosen.emplace_back(&c, Selection::slow);
+    if (name == c.name || name == c.group) chosen.emplace_back(&c, Selection::quick);
+    if (name == c.name + "-long" || name == c.group + "-long") chosen.emplace_back(&c, Selection::slow);
   }
   return chosen;
 }
@@ -145,7 +144,7 @@ std::vector<Result> evaluate(const Case& of, Selection selection) {
   std::vector<const Figure*> chosen;
   Recordings recordings;
   for (const Figure& figure : of.figures) {
-    if (selection != Selection::all && of.is_long(figure) != (selection == Selection::slow)) continue;
+    if (of.is_long(figure) != (selection == Selection::slow)) continue;
     chosen.push_back(&figure);
     for (const auto& run : figure.runs) recordings.want(run, figure.signal);
     if (figure.oracle && !figure.oracle->run.empty()) recordings.want(figure.oracle->run, figure.oracle->signal);

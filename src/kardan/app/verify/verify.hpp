@@ -11,7 +11,8 @@
 namespace kardan::verify {
 
 struct Options {
-  std::vector<std::string> names;  ///< cases, groups, or "<group>-long"; empty: every group without its long runs
+  std::vector<std::string> names;  ///< cases and groups: their quick figures; with "-long" behind it: those that take long
+                                   ///< runs; empty: every group
   std::filesystem::path root;      ///< folder of the groups; empty: the verification/ this program was built beside
   bool list = false;               ///< only say what there is
   bool json = false;               ///< one JSON object a figure and line
@@ -27,9 +28,8 @@ struct Result {
   std::string failure;    ///< why there is no value
 };
 
-/// Runs those figures of a case that `wanted` names: all, only the quick ones or only the long ones. Never throws: what
-/// goes wrong is a failed figure.
-enum class Selection { all, quick, slow };
+/// Runs the quick figures of a case or those that take long runs. Never throws: what goes wrong is a failed figure.
+enum class Selection { quick, slow };
 std::vector<Result> evaluate(const Case& of, Selection selection);
 
 /// The command. Returns the exit code: 0 all figures hold, 1 one falls short, 2 unknown names or an unreadable case.
