@@ -1,17 +1,47 @@
 #include "kardan/loads/load_system.hpp"
 
+#include "kardan/loads/body_forces.hpp"
+#include "kardan/loads/node_constraints.hpp"
+#include "kardan/loads/point_forces.hpp"
+#include "kardan/loads/work_meter.hpp"
+
 namespace kardan {
 
-struct LoadSystem::Impl {};
+struct LoadSystem::Impl {
+  Impl(const Model& model, State& state, Diagnostics& diagnostics)
+      : body_forces(model, state, diagnostics),
+        point_forces(model, state, diagnostics),
+        constraints(model, state, diagnostics) {
+    state.registry.add_value({"loads.work", "energy", "loads.account"}, meter);
+    state.registry.add_value({"loads.counted_work", "energy", "loads.account"}, counted);
+  }
 
-LoadSystem::LoadSystem(const Model&, State&, Diagnostics&) : impl_(std::make_unique<Impl>()) {}
+  BodyForces body_forces;
+  PointForces point_forces;
+  NodeConstraints constraints;
+  WorkMeter meter;
+  double counted = 0;  ///< what of state.energy.external_work came from here
+};
+
+LoadSystem::LoadSystem(const Model& model, State& state, Diagnostics& diagnostics)
+    : impl_(std::make_unique<Impl>(model, state, diagnostics)) {}
 LoadSystem::~LoadSystem() = default;
 LoadSystem::LoadSystem(LoadSystem&&) noexcept = default;
 LoadSystem& LoadSystem::operator=(LoadSystem&&) noexcept = default;
 
-void LoadSystem::set_initial_velocities(const Model&, State&, Diagnostics&) {}
-void LoadSystem::apply(const Model&, State&) {}
-void LoadSystem::constrain_velocities(const Model&, State&) {}
-void LoadSystem::account(const Model&, State&) {}
+void LoadSystem::apply(const Model& model, State& state) {
+  impl_->constraints.before_kick(state);
+  const double body_power = impl_->body_forces.apply(model, state);
+  impl_->meter.before(body_power + impl_->point_forces.apply(model, state));
+}
+
+void LoadSystem::constrain_velocities(const Model& model, State& state) { impl_->constraints.impose(model, state); }
+
+void LoadSystem::account(const Model&, State& state) {
+  const double power = impl_->body_forces.power(state) + impl_->point_forces.power(state);
+  const double work = impl_->meter.after(power, state.clock) + impl_->constraints.account(state);
+  state.energy.external_work += work - impl_->counted;
+  impl_->counted = work;
+}
 
 }  // namespace kardan
