@@ -59,6 +59,8 @@ void Block::open(Card& card, std::string_view line, int number) const {
   card.line_number_ = number;
   card.present_ = true;
   card.free_ = has_commas_ && has_separating_comma(line);
+  card.free_position_ = 0;
+  card.free_start_ = 0;
   if (!has_tabs_) return;
   card.expanded_.clear();
   if (!card.free_ && line.find('\t') != std::string_view::npos) card.expanded_ = expand_tabs(line);

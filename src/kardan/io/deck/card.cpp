@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -19,6 +20,17 @@ std::string upper(std::string_view text) {
 }
 
 bool refers(std::string_view text) { return text.find_first_of("&<") != std::string_view::npos; }
+
+/// The comma that ends the value at `start`, or the end of the line.
+std::size_t end_of_value(std::string_view line, std::size_t start) {
+  int brackets = 0;
+  for (std::size_t i = start; i < line.size(); ++i) {
+    if (line[i] == '<') ++brackets;
+    if (line[i] == '>' && brackets > 0) --brackets;
+    if (line[i] == ',' && brackets == 0) return i;
+  }
+  return line.size();
+}
 
 /// What a user sees of a field in a message: short, printable.
 std::string in_quotes(std::string_view text) {
@@ -52,21 +64,20 @@ std::string_view Card::field_text(int field, int& column) const {
   return text;
 }
 
-// Value number `position` of a comma-separated line; commas within <…> do not separate.
+// Value number `position` of a comma-separated line; commas within <…> do not separate. Fields are mostly read from left
+// to right, so the place of the last one found is kept.
 std::string_view Card::free_field(int position, bool to_end, int& column) const {
-  std::size_t start = 0, i = 0;
-  int count = 0, brackets = 0;
-  for (; i <= line_.size(); ++i) {
-    const char c = i < line_.size() ? line_[i] : ',';
-    if (c == '<') ++brackets;
-    if (c == '>' && brackets > 0) --brackets;
-    if (c != ',' || (brackets > 0 && i < line_.size())) continue;
-    if (count == position) break;
-    ++count;
-    start = i + 1;
+  if (position < free_position_) {
+    free_position_ = 0;
+    free_start_ = 0;
   }
-  if (count < position || start > line_.size()) return {};
-  const std::string_view text = trimmed(to_end ? line_.substr(start) : line_.substr(start, i - start));
+  std::size_t end = 0;
+  for (;; ++free_position_, free_start_ = end + 1) {
+    if (free_start_ > line_.size()) return {};
+    end = has_references_ ? end_of_value(line_, free_start_) : std::min(line_.find(',', free_start_), line_.size());
+    if (free_position_ == position) break;
+  }
+  const std::string_view text = trimmed(to_end ? line_.substr(free_start_) : line_.substr(free_start_, end - free_start_));
   if (!text.empty()) column = static_cast<int>(text.data() - line_.data()) + 1;
   return text;
 }

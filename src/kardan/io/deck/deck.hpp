@@ -133,6 +133,8 @@ class Card {
   std::string_view line_;
   std::string expanded_;  // the line with its tabs expanded; empty if it has none
   int line_number_ = 0;
+  mutable int free_position_ = 0;  // the comma-separated value found last, and where it starts
+  mutable std::size_t free_start_ = 0;
   CardFormat format_ = CardFormat::standard;
   bool present_ = false, free_ = false, has_references_ = false;
 };

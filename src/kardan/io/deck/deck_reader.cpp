@@ -143,7 +143,8 @@ void DeckReader::handle(FileState& state, Block&& block, std::string_view rest) 
   block.info = match.info;
   block.keyword = match.info->name;
   block.options = {match.options.begin(), match.options.end()};
-  if (match.info->status == KeywordStatus::not_needed) {
+  const bool idle = !match.info->stops_if.empty() && block.peek("card0").real(match.info->stops_if) == 0;
+  if (match.info->status == KeywordStatus::not_needed || idle) {
     if (named_.insert(block.keyword).second)
       diagnostics_.notice(fmt::format("read and not needed: {}", match.info->note), block.as_written_, block.where);
     return;

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "kardan/io/deck/schema.hpp"
 
@@ -8,14 +11,23 @@ namespace kardan::deck {
 
 namespace {
 
-void list(std::string& text, KeywordStatus status) {
-  std::string family;
+std::string with_options(const KeywordInfo& info) {
+  std::string text = fmt::format("`*{}`", info.name);
+  for (const std::string& option : info.options) text += fmt::format(" `_{}`", option);
+  return text;
+}
+
+/// The keywords of one status under their notes, which many of them share.
+void list_by_note(std::string& text, KeywordStatus status) {
+  std::vector<std::pair<std::string, std::string>> groups;
   for (const KeywordInfo& info : Schema::instance().keywords()) {
     if (info.status != status || info.name == "*") continue;
-    text += fmt::format("| `*{}`", info.name);
-    for (const std::string& option : info.options) text += fmt::format(" `_{}`", option);
-    text += fmt::format(" | {} |\n", info.note);
+    const std::string note = info.note + (info.stops_if.empty() ? "" : fmt::format(" (stops only where {} is not 0)", info.stops_if));
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == note; });
+    if (group == groups.end()) group = groups.insert(group, {note, ""});
+    group->second += (group->second.empty() ? "" : ",\n") + with_options(info);
   }
+  for (const auto& [note, names] : groups) text += fmt::format("**{}**:\n{}\n\n", note, names);
 }
 
 }  // namespace
@@ -27,11 +39,13 @@ std::string keyword_table_markdown() {
       "Every keyword takes `_TITLE` or `_ID` where LS-DYNA allows it; the options of its own stand behind it.\n"
       "A keyword that is in none of the three lists is an error.\n\n"
       "## Honoured\n\n| keyword | what it does |\n|---|---|\n";
-  list(text, KeywordStatus::honoured);
-  text += "\n## Read and not needed\n\nThe run is the same without them; each is named once in the log.\n\n| keyword | why |\n|---|---|\n";
-  list(text, KeywordStatus::not_needed);
-  text += "\n## Stops a run\n\nLeaving these out would change the physics, so a deck that has one is refused.\n\n| keyword | why |\n|---|---|\n";
-  list(text, KeywordStatus::stops);
+  for (const KeywordInfo& info : Schema::instance().keywords())
+    if (info.status == KeywordStatus::honoured && info.name != "*") text += fmt::format("| {} | {} |\n", with_options(info), info.note);
+  text += "\n## Read and not needed\n\nThe run is the same without them; each is named once in the log.\n\n";
+  list_by_note(text, KeywordStatus::not_needed);
+  text += "\n## Stops a run\n\nLeaving these out would change the physics, so a deck that has one is refused.\n\n";
+  list_by_note(text, KeywordStatus::stops);
+  text.pop_back();
   return text;
 }
 

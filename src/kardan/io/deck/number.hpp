@@ -25,10 +25,10 @@ IntegerResult parse_integer(std::string_view text);
 
 /// Blanks, tabs and carriage returns off both ends.
 inline std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\f\v";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  const auto is_blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 }  // namespace kardan::deck

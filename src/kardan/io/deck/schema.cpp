@@ -141,7 +141,12 @@ void Schema::add_keyword(std::string_view line) {
   KeywordInfo info;
   const auto names = split(columns[0], '=');
   info.name = names[0];
-  info.status = to_status(columns[1]);
+  std::string_view status = columns[1];
+  if (constexpr std::string_view conditional = "stops_if:"; status.starts_with(conditional)) {
+    info.stops_if = status.substr(conditional.size());
+    status = "stops";
+  }
+  info.status = to_status(status);
   for (const std::string_view option : split(columns[2], ' '))
     if (!option.empty()) info.options.emplace_back(option);
   info.note = columns[3];
@@ -168,8 +173,10 @@ KeywordMatch Schema::match(std::string_view name) const {
     if (end == std::string_view::npos) end = 0;
   }
   if (match.info == nullptr || name == "*") {
-    const std::size_t family = name.find('_');
-    match.info = family == std::string_view::npos ? nullptr : find(std::string(name.substr(0, family + 1)) + "*");
+    match.info = nullptr;
+    // A whole family, e.g. AIRBAG_*.
+    for (end = name.rfind('_'); end != std::string_view::npos && end > 0 && match.info == nullptr; end = name.rfind('_', end - 1))
+      match.info = find(std::string(name.substr(0, end + 1)) + "*");
     return match;
   }
   std::string_view rest = name.substr(end);

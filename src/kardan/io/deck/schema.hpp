@@ -43,6 +43,7 @@ struct KeywordInfo {
   std::string name;                  ///< without the asterisk, upper case
   KeywordStatus status = KeywordStatus::stops;
   std::vector<std::string> options;  ///< suffixes beyond TITLE and ID that it takes, e.g. LOCAL, FAILURE
+  std::string stops_if;              ///< it stops a run only where this field of card0 is not zero; empty: always
   std::string note;                  ///< one line: what it does here, or what leaving it out would change and what to do
   const CardLayout& card(std::string_view card_name) const;       ///< asserts that it is in the table
   const CardLayout* find_card(std::string_view card_name) const;  ///< nullptr where it is not
