@@ -41,9 +41,11 @@ nlohmann::json expected_of(const Model& m) {
   e["title"] = m.title;
   e["part_names"] = {"strut", "spring", "rigid plate", "block", "Part 30"};
   e["elements"] = {{"72", {"rigid plate", {102, 105, 106, 103}}}, {"71", {"rigid plate", {101, 102, 103, 104}}},
-                   {"41", {"Part 30", {201, 202, 203, 204}}},     {"80", {"Part 30", {202, 205, 203}}},
+                   {"41", {"Part 30", {201, 202, 203, 204}}},     {"80", {"Part 30", {202, 205, 203, 203}}},
                    {"900", {"block", {1, 2, 3, 4, 11, 12, 13, 14}}}, {"33", {"strut", {301, 302}}},
                    {"31", {"spring", {303, 106}}}};
+  e["part_nodes"] = {{"strut", {301, 302}}, {"spring", {106, 303}}, {"rigid plate", {101, 102, 103, 104, 105, 106}},
+                     {"block", {1, 2, 3, 4, 11, 12, 13, 14}}, {"Part 30", {201, 202, 203, 204, 205}}};
   e["cells"] = nlohmann::json::object();
   e["states"] = nlohmann::json::array();
   return e;
@@ -229,12 +231,11 @@ TEST(D3plot, VtkReadsTheDeletionTable) {
   D3plotWriter writer(directory / "d3plot", label, m, s, {});
   auto expected = expected_of(m);
   expected["elements"].erase("41");
+  expected.erase("part_nodes");
   for (int i = 0; i < 2; ++i) {
     advance(m, s, 0.5 * i, 0.01);
     writer.write_state(m, s);
-    add_expected_state(expected, m, s);
-    expected["states"].back()["nodes"].erase("201");  // nodes of shell 41 alone
-    expected["states"].back()["nodes"].erase("204");
+    expected["states"].push_back({{"time", s.clock.time}, {"nodes", nlohmann::json::object()}});
   }
   expect_vtk_reads(directory, expected);
 }

@@ -14,7 +14,8 @@ double tolerance(double time, double step) { return step > 0 ? 1e-3 * step : 1e-
 bool OutputSchedule::due(double time, double step) const {
   const double near = tolerance(time, step);
   if (time <= last_ + near) return false;
-  return time >= next_ - near || (end_ > 0 && time >= end_ - near);
+  if (end_ > 0 && time >= end_ - near) return true;
+  return paused_ ? interval_at(time) > 0 : time >= next_ - near;
 }
 
 void OutputSchedule::written(double time, double step) {
@@ -25,9 +26,9 @@ void OutputSchedule::written(double time, double step) {
     next_ = dt_ * (std::floor((time + near) / dt_) + 1);
     return;
   }
-  const double interval = interval_at(next_);
-  if (interval <= 0) next_ = std::nextafter(time + near, 1e300);  // no output now; the curve is asked again next cycle
-  else next_ = next_ + interval > time + near ? next_ + interval : time + interval_at(time);
+  paused_ = interval_at(time) <= 0;
+  next_ += interval_at(next_);
+  if (next_ <= time + near) next_ = time + interval_at(time);
 }
 
 }  // namespace kardan

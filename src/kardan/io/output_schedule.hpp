@@ -27,6 +27,7 @@ class OutputSchedule {
   double end_;
   double next_ = 0;         ///< nominal time of the next output
   double last_ = -1e300;    ///< time of the last output written
+  bool paused_ = false;     ///< the curve was at or below zero; output goes on when it rises
 };
 
 }  // namespace kardan

@@ -52,21 +52,28 @@ def main(path, expected):
         reader.Update()
         seen, elements = {}, {}
         for name, grid in leaves(reader.GetOutput()):
-            ids = grid.GetPointData().GetArray("UserID")
+            data = grid.GetCellData()
+            if "part_nodes" not in expected:  # VTK reorders the points of parts with deleted elements
+                for c in range(grid.GetNumberOfCells()):
+                    elements[int(data.GetArray("UserIds").GetTuple1(c))] = (name, None)
+                continue
+            # VTK 9.1 garbles the nodes' user ids of single-precision files; a part's points come in ascending order.
+            ids = expected["part_nodes"][name]
+            if grid.GetNumberOfPoints() != len(ids):
+                fail(f"part {name} has {grid.GetNumberOfPoints()} points instead of {len(ids)}")
             velocity = grid.GetPointData().GetArray("Velocity")
             acceleration = grid.GetPointData().GetArray("Acceleration")
-            for p in range(grid.GetNumberOfPoints()):
-                seen[int(ids.GetTuple1(p))] = (*grid.GetPoint(p), *velocity.GetTuple3(p), *acceleration.GetTuple3(p))
-            cells = grid.GetCellData().GetArray("UserID")
+            for p, node in enumerate(ids):
+                point = (*grid.GetPoint(p), *velocity.GetTuple3(p), *acceleration.GetTuple3(p))
+                close(seen.setdefault(node, point), point, f"node {node} in two parts")
             for c in range(grid.GetNumberOfCells()):
+                element = int(data.GetArray("UserIds").GetTuple1(c))
                 points = grid.GetCell(c).GetPointIds()
-                nodes = [int(ids.GetTuple1(points.GetId(k))) for k in range(points.GetNumberOfIds())]
-                elements[int(cells.GetTuple1(c))] = (name, nodes, grid.GetCellData())
-                data = grid.GetCellData()
-                for array, wanted in expected["cells"].get(str(int(cells.GetTuple1(c))), {}).items():
+                elements[element] = (name, [ids[points.GetId(k)] for k in range(points.GetNumberOfIds())])
+                for array, wanted in expected["cells"].get(str(element), {}).items():
                     if not data.HasArray(array):
                         fail(f"no array {array}; there are {[data.GetArrayName(k) for k in range(data.GetNumberOfArrays())]}")
-                    close(data.GetArray(array).GetTuple(c), wanted, f"{array} of element {int(cells.GetTuple1(c))}")
+                    close(data.GetArray(array).GetTuple(c), wanted, f"{array} of element {element}")
         for node, values in state["nodes"].items():
             if int(node) not in seen:
                 fail(f"node {node} is missing; seen {sorted(seen)}")
@@ -75,8 +82,8 @@ def main(path, expected):
             if int(element) not in elements:
                 fail(f"element {element} is missing; seen {sorted(elements)}")
             found = elements[int(element)]
-            if found[0] != part or sorted(set(found[1])) != sorted(set(nodes)):
-                fail(f"element {element}: {found[:2]} instead of {(part, nodes)}")
+            if found != (part, nodes) and found != (part, None):
+                fail(f"element {element}: {found} instead of {(part, nodes)}")
         extra = set(map(str, elements)) - set(expected["elements"])
         if extra:
             fail(f"elements {extra} do not belong here")
