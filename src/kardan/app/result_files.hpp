@@ -1,0 +1,24 @@
+// The writers of results as an observer of the run.
+#pragma once
+
+#include <filesystem>
+
+#include "kardan/io/results_writer.hpp"
+#include "kardan/solver/solver.hpp"
+
+namespace kardan::app {
+
+class ResultFiles : public Observer {
+ public:
+  ResultFiles(const Solver& solver, const std::filesystem::path& folder);
+
+  bool due(const State& state, const StepView& view) override;
+  void at(const Model& model, const State& state, const StepView& view) override;
+  /// Completes all files. @throws RunError if one cannot be written.
+  void close();
+
+ private:
+  ResultsWriter writer_;
+};
+
+}  // namespace kardan::app
