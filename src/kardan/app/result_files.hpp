@@ -16,6 +16,7 @@ class ResultFiles : public Observer {
   void at(const Model& model, const State& state, const StepView& view) override;
   /// Completes all files. @throws RunError if one cannot be written.
   void close();
+  const ResultsWriter& writer() const { return writer_; }
 
  private:
   ResultsWriter writer_;

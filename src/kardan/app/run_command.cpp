@@ -21,14 +21,18 @@ namespace kardan::app {
 namespace {
 
 SolverOptions solver_options(const RunRequest& request) {
-  return {.joints = request.joints, .end_time = request.end_time, .dt = request.dt, .threads = request.threads};
+  return {.joints = request.joints, .end_time = {}, .dt = request.dt, .threads = request.threads};
 }
 
+/// The model of the deck. An end time of the command line takes the place of ENDTIM, so that whoever reads the model's
+/// control (writers, solver) sees the one that holds.
 Model load(const RunRequest& request, Diagnostics& diagnostics) {
   deck::LoadOptions options;
   options.read.without.insert(request.without.begin(), request.without.end());
   options.build.end_time = request.end_time.value_or(0.0);
-  return deck::load_model(request.deck, options, diagnostics);
+  Model model = deck::load_model(request.deck, options, diagnostics);
+  if (request.end_time) model.control.termination.end_time = *request.end_time;
+  return model;
 }
 
 /// What the deck asks for and Kardan cannot compute refuses the run.
@@ -46,6 +50,14 @@ void say_instruction_set(const RunRequest& request, Log& log) {
   if (request.isa && *request.isa != built_isa())
     log.line(fmt::format("notice: --isa {}: this build has its kernels for {} only, they are used", to_string(*request.isa),
                          to_string(built_isa())));
+}
+
+/// Which files are written beyond, or short of, what the deck asks for.
+void say_files(const ResultsWriter& writer, Log& log) {
+  if (writer.defaulted())
+    log.line("notice: the deck has no *DATABASE_… request: d3plot (20 states) and glstat are written all the same");
+  for (OutputFile file : writer.unwritten())
+    log.line(fmt::format("warning: *DATABASE_{} is asked for, but this version does not write it", to_string(file)));
 }
 
 /// Where the results are and what opens them.
@@ -112,6 +124,7 @@ int run_deck(const RunRequest& request, Log& log) {
   log.diagnostics(diagnostics);
 
   ResultFiles results(*solver, folder);
+  say_files(results.writer(), log);
   Progress progress(log);
   solver->attach(results);
   solver->attach(progress);
