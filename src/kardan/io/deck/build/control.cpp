@@ -1,0 +1,195 @@
+// *TITLE, *CONTROL, *DATABASE.
+#include <map>
+
+#include "kardan/io/deck/build/builder.hpp"
+#include "kardan/io/deck/build/sets.hpp"
+
+namespace kardan::deck {
+
+void build_title(Builder& b, Block& block) { b.model.title = block.next_title(); }
+
+namespace {
+
+void read_termination(Builder& b, Block& block) {
+  const Card card = block.next("card0");
+  Termination& t = b.model.control.termination;
+  t.end_time = card.real("endtim", dimension::time);
+  t.end_cycle = card.integer("endcyc");
+  t.dt_min = card.real("dtmin");
+  t.end_energy = card.real("endeng");
+  t.end_mass = Builder::real_or(card, "endmas", 1e8);
+  if (t.end_time < 0) card.error("endtim", "is negative", "give the end time of the run");
+  b.ignored(card, "nosol", "the run is done");
+}
+
+void read_time_step(Builder& b, Block& block) {
+  const Card card = block.next("card0");
+  const Card more = block.next_optional("card1");
+  TimeStepControl& t = b.model.control.time_step;
+  t.initial = card.real("dtinit", dimension::time);
+  t.scale = Builder::real_or(card, "tssfac", 0.9);
+  t.isdo = static_cast<int>(card.integer("isdo"));
+  t.dt2ms = card.real("dt2ms", dimension::time);
+  t.limit = b.optional_curve(card, "lctm");
+  t.erode = static_cast<int>(card.integer("erode"));
+  if (t.dt2ms != 0) b.mass_scaling = card;
+  b.ignored(card, "tslimt", "no element's stiffness is reduced to keep the step");
+  b.ignored(card, "ms1st", "there is no mass scaling");
+  for (const char* field : {"imscl", "rmscl", "dt2mslc"}) b.ignored(more, field, "there is no mass scaling");
+}
+
+void read_rigid(Builder& b, Block& block) {
+  const Card card = block.next("card0");
+  const Card more = block.next_optional("card1");
+  RigidControl& r = b.model.control.rigid;
+  r.lmf = b.integer_in(card, "lmf", 0, 1);
+  r.jntf = b.integer_in(card, "jntf", 0, 2);
+  r.gjadstf = more.real("gjadstf", dimension::rotational_stiffness);
+  r.gjadvsc = more.real("gjadvsc", dimension::rotational_damping);
+  r.tjadstf = more.real("tjadstf", dimension::stiffness);
+  r.tjadvsc = more.real("tjadvsc", dimension::damping);
+  b.ignored(card, "metalf", "rigid bodies are updated in full");
+  b.ignored(card, "rbsms", "there is no selective mass scaling");
+}
+
+void read_energy(Builder& b, Block& block) {
+  const Card card = block.next("card0");
+  EnergyControl& e = b.model.control.energy;
+  e.hgen = static_cast<int>(card.integer("hgen"));
+  e.rwen = static_cast<int>(card.integer("rwen"));
+  e.slnten = static_cast<int>(card.integer("slnten"));
+  e.rylen = static_cast<int>(card.integer("rylen"));
+}
+
+void read_shell(Builder& b, Block& block) {
+  const Card card = block.next("card0");
+  const Card more = block.next_optional("card1");
+  Control& c = b.model.control;
+  c.shell_istupd = static_cast<int>(card.integer("istupd"));
+  if (card.integer("bwc") != 0) c.shell_bwc = static_cast<int>(card.integer("bwc"));
+  b.ignored(card, "esort", "degenerate quadrilaterals stay what they are");
+  b.ignored(more, "intgrd", "Gauss points are used through the thickness");
+  b.ignored(more, "lamsht", "laminated shell theory is not applied");
+}
+
+void read_hourglass(Builder& b, Block& block) {
+  const Card card = block.next("card0");
+  b.model.control.hourglass_type = static_cast<int>(card.integer("ihq"));
+  b.model.control.hourglass_qm = Builder::real_or(card, "qh", 0.1);
+}
+
+void read_bulk_viscosity(Builder& b, Block& block) {
+  const Card card = block.next("card0");
+  b.model.control.bulk_q1 = Builder::real_or(card, "q1", 1.5);
+  b.model.control.bulk_q2 = Builder::real_or(card, "q2", 0.06);
+  b.ignored(card, "type", "the standard bulk viscosity of solids is used");
+  b.ignored(card, "btype", "beams have no bulk viscosity");
+}
+
+}  // namespace
+
+void build_control(Builder& b, Block& block) {
+  static const std::map<std::string, Handler> readers{
+      {"CONTROL_TERMINATION", read_termination}, {"CONTROL_TIMESTEP", read_time_step},
+      {"CONTROL_RIGID", read_rigid},             {"CONTROL_ENERGY", read_energy},
+      {"CONTROL_SHELL", read_shell},             {"CONTROL_HOURGLASS", read_hourglass},
+      {"CONTROL_BULK_VISCOSITY", read_bulk_viscosity}};
+  const auto reader = readers.find(block.keyword);
+  if (reader != readers.end()) reader->second(b, block);
+  else block.warning("this control is read but not honoured", "leave it out if its effect is wanted nowhere");
+}
+
+namespace {
+
+const std::map<std::string, OutputFile>& files() {
+  static const std::map<std::string, OutputFile> names{
+      {"GLSTAT", OutputFile::glstat},   {"MATSUM", OutputFile::matsum},   {"NODOUT", OutputFile::nodout},
+      {"RBDOUT", OutputFile::rbdout},   {"JNTFORC", OutputFile::jntforc}, {"BNDOUT", OutputFile::bndout},
+      {"SPCFORC", OutputFile::spcforc}, {"DEFORC", OutputFile::deforc},   {"ELOUT", OutputFile::elout},
+      {"RCFORC", OutputFile::rcforc},   {"SLEOUT", OutputFile::sleout},   {"RWFORC", OutputFile::rwforc},
+      {"SECFORC", OutputFile::secforc}, {"SWFORC", OutputFile::swforc},   {"NCFORC", OutputFile::ncforc},
+      {"ABSTAT", OutputFile::abstat},   {"NODFOR", OutputFile::nodfor},   {"BINARY_D3PLOT", OutputFile::d3plot},
+      {"BINARY_D3THDT", OutputFile::d3thdt}};
+  return names;
+}
+
+void read_extent(Builder& b, Block& block) {
+  const Card card = block.next("card0");
+  const std::int64_t points = card.integer("maxint");
+  b.model.output.maxint = points == 0 ? 3 : static_cast<int>(points);
+  b.model.output.strain_flag = static_cast<int>(card.integer("strflg"));
+}
+
+}  // namespace
+
+void build_database(Builder& b, Block& block) {
+  if (block.keyword == "DATABASE_EXTENT_BINARY") return read_extent(b, block);
+  const auto file = files().find(block.keyword.substr(std::string("DATABASE_").size()));
+  if (file == files().end()) {
+    block.warning("this result is not written");
+    return;
+  }
+  const Card card = block.next("card0");
+  OutputRequest request;
+  request.dt = card.real("dt", dimension::time);
+  if (request.dt < 0) card.error("dt", "is negative", "give the time between two outputs");
+  if (Builder::has_field(block, "card0", "lcdt")) {
+    request.curve = b.optional_curve(card, "lcdt");
+    const std::int64_t plots = card.integer("npltc");
+    if (plots > 0) request.dt = b.model.control.termination.end_time / static_cast<double>(plots);
+    b.ignored(card, "psetid", "all parts are written");
+  } else {
+    request.curve = b.optional_curve(card, "lcur");
+    request.binary = b.integer_in(card, "binary", 0, 3);
+  }
+  b.model.output.requests[file->second] = request;
+}
+
+void build_history(Builder& b, Block& block) {
+  const std::string what = block.keyword.substr(std::string("DATABASE_HISTORY_").size());
+  const bool set = what.ends_with("_SET");
+  const std::string kind = set ? what.substr(0, what.size() - 4) : what;
+  OutputControl& out = b.model.output;
+  struct Target {
+    std::vector<Index>* list;
+    SetKind kind;
+    ElementKind elements;
+  };
+  const std::map<std::string, Target> targets{{"NODE", {&out.history_nodes, SetKind::node, ElementKind::shell}},
+                                              {"SHELL", {&out.history_shells, SetKind::shell, ElementKind::shell}},
+                                              {"SOLID", {&out.history_solids, SetKind::solid, ElementKind::solid}},
+                                              {"BEAM", {&out.history_beams, SetKind::beam, ElementKind::beam}},
+                                              {"DISCRETE", {&out.history_discrete, SetKind::discrete, ElementKind::discrete}}};
+  const auto target = targets.find(kind);
+  if (target == targets.end()) {
+    block.warning("histories of these are not written");
+    return;
+  }
+  const auto [list, set_kind, elements] = target->second;
+  const auto add = [&, l = list, k = set_kind, e = elements](const Card& card, const std::string& field) {
+    if (card.integer(field) == 0) return;
+    if (set) {
+      const Index s = b.sets->reference(card, field, k);
+      if (s == none) return;
+      const std::vector<Index>& members = k == SetKind::node ? b.model.node_sets[static_cast<std::size_t>(s)].nodes
+                                                             : b.model.element_sets[static_cast<std::size_t>(s)].elements;
+      l->insert(l->end(), members.begin(), members.end());
+    } else if (k == SetKind::node) {
+      if (const NodeIndex n = b.node(card, field); n != none) l->push_back(n);
+    } else {
+      const UserId id = card.id(field, IdKind::element);
+      const Index i = b.elements[static_cast<std::size_t>(e)].index(id);
+      if (i == none) card.error(field, "element " + std::to_string(id) + " is not defined", "take it out of the list");
+      else l->push_back(i);
+    }
+  };
+  if (block.has("ID")) {
+    block.for_each("named", [&](const Card& card) { add(card, "id1"); });
+    return;
+  }
+  block.for_each("card0", [&](const Card& card) {
+    for (int i = 1; i <= 8; ++i) add(card, "id" + std::to_string(i));
+  });
+}
+
+}  // namespace kardan::deck

@@ -1,0 +1,170 @@
+// *MAT: what Kardan computes, and what it only weighs.
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "kardan/io/deck/build/builder.hpp"
+
+namespace kardan::deck {
+
+namespace {
+
+/// Dof bits of the six digits of CON2 (CMO < 0): 100000 x … 000001 z-rotation.
+int digits_to_dofs(std::int64_t code) {
+  int bits = 0;
+  for (int i = 5; i >= 0; --i, code /= 10) {
+    if (code % 10 == 1) bits |= 1 << i;
+    else if (code % 10 != 0) return -1;
+  }
+  return code == 0 ? bits : -1;
+}
+
+}  // namespace
+
+BodyConstraint read_body_constraint(Builder& b, const Card& card) {
+  BodyConstraint c;
+  c.cmo = card.real("cmo");
+  if (c.cmo != 0 && std::fabs(c.cmo) != 1 && std::fabs(c.cmo) != 2) {
+    card.error("cmo", "found " + card.text("cmo") + ", expected -2, -1, 0, 1 or 2", "correct the value");
+    c.cmo = 0;
+  }
+  if (c.cmo > 0) {
+    c.con1 = b.integer_in(card, "con1", 0, 7);
+    c.con2 = b.integer_in(card, "con2", 0, 7);
+  } else if (c.cmo < 0) {
+    c.frame = b.optional_reference(card, "con1", b.frames);
+    c.con2 = digits_to_dofs(card.integer("con2"));
+    if (c.con2 < 0) {
+      card.error("con2", "found " + card.text("con2") + ", expected six digits of 0 and 1",
+                 "x, y, z, rx, ry, rz: 1 is held, 0 is free");
+      c.con2 = 0;
+    }
+  }
+  if (std::fabs(c.cmo) == 2) {
+    c.node = b.optional_node(card, "spcnid");
+    c.point = c.node == none ? card.point("xspc") : b.model.nodes.x[static_cast<std::size_t>(c.node)];
+  }
+  return c;
+}
+
+namespace {
+
+RigidMaterial read_rigid(Builder& b, Block& block, const Card& card) {
+  RigidMaterial m;
+  m.density = card.real("ro", dimension::density);
+  m.youngs_modulus = card.real("e", dimension::stress);
+  m.poissons_ratio = card.real("pr");
+  b.refuse_nonzero(card, "couple", "coupling of the rigid body to MADYMO or CAL3D", "leave N, COUPLE and M at 0");
+  b.refuse_nonzero(card, "m", "coupling of the rigid body to MADYMO or CAL3D", "leave N, COUPLE and M at 0");
+  b.refuse_nonzero(card, "n", "coupling of the rigid body to MADYMO or CAL3D", "leave N, COUPLE and M at 0");
+  const BodyConstraint constraint = read_body_constraint(b, block.next_optional("card1"));
+  m.cmo = constraint.cmo;
+  m.con1 = constraint.con1;
+  m.con2 = constraint.con2;
+  m.frame = constraint.frame;
+  m.constraint_point = constraint.point;
+  m.constraint_node = constraint.node;
+
+  const Card local = block.next_optional("card2");
+  m.a = local.direction("lco_or_a1");
+  m.v = local.direction("v1");
+  // The first field is a frame's number where the others are blank and it is one; else the first component of a vector.
+  const double first = local.real("lco_or_a1");
+  const bool alone = norm(m.v) == 0 && local.real("a2") == 0 && local.real("a3") == 0;
+  if (alone && first != 0) {
+    if (first > 0 && first == std::floor(first)) m.output_frame = b.reference(local, "lco_or_a1", b.frames);
+    else local.error("lco_or_a1", "found " + local.text("lco_or_a1") + ", expected a coordinate system", "name one, or give A and V");
+    m.a = {};
+  }
+  return m;
+}
+
+ElasticMaterial read_elastic(Builder& b, const Card& card) {
+  ElasticMaterial m;
+  m.density = card.real("ro", dimension::density);
+  m.youngs_modulus = card.real("e", dimension::stress);
+  m.poissons_ratio = card.real("pr");
+  m.da = card.real("da");
+  m.db = card.real("db");
+  if (m.youngs_modulus <= 0) card.error("e", "found " + card.text("e") + ", expected a positive modulus", "give Young's modulus");
+  if (m.poissons_ratio <= -1 || m.poissons_ratio >= 0.5) {
+    card.error("pr", "found " + card.text("pr") + ", expected a Poisson's ratio between -1 and 0.5", "correct the value");
+  }
+  (void)b;
+  return m;
+}
+
+struct SpringLayout {
+  SpringLaw law;
+  std::array<const char*, 6> reals;
+  std::array<const char*, 2> curves;
+  bool second_curve_optional;
+};
+
+const std::map<std::string, SpringLayout>& spring_layouts() {
+  static const std::map<std::string, SpringLayout> layouts{
+      {"MAT_SPRING_ELASTIC", {SpringLaw::elastic_spring, {"k"}, {}, false}},
+      {"MAT_DAMPER_VISCOUS", {SpringLaw::viscous_damper, {"dc"}, {}, false}},
+      {"MAT_SPRING_ELASTOPLASTIC", {SpringLaw::elastoplastic_spring, {"k", "kt", "fy"}, {}, false}},
+      {"MAT_SPRING_NONLINEAR_ELASTIC", {SpringLaw::nonlinear_elastic_spring, {}, {"lcd", "lcr"}, true}},
+      {"MAT_DAMPER_NONLINEAR_VISCOUS", {SpringLaw::nonlinear_viscous_damper, {}, {"lcdr"}, false}},
+      {"MAT_SPRING_GENERAL_NONLINEAR",
+       {SpringLaw::general_nonlinear_spring, {"beta", "tyi", "cyi"}, {"lcdl", "lcdu"}, false}},
+      {"MAT_SPRING_MAXWELL", {SpringLaw::maxwell_spring, {"k0", "ki", "beta", "tc", "fc", "copt"}, {}, false}},
+      {"MAT_SPRING_INELASTIC", {SpringLaw::inelastic_spring, {"ku", "ctf"}, {"lcfd"}, false}}};
+  return layouts;
+}
+
+SpringMaterial read_spring(Builder& b, const Block& block, const Card& card, const SpringLayout& layout) {
+  SpringMaterial m;
+  m.law = layout.law;
+  const IncludeContext& context = block.context();
+  if (context.mass != 1 || context.length != 1 || context.time != 1) {
+    b.unsupported(block, "unit factors of *INCLUDE_TRANSFORM on a spring or damper are not available: whether it is "
+                  "translational or torsional is not known here", "convert the include's units before");
+  }
+  for (std::size_t i = 0; i < layout.reals.size(); ++i) {
+    if (layout.reals[i] != nullptr) m.p[i] = card.real(layout.reals[i]);
+  }
+  for (std::size_t i = 0; i < layout.curves.size(); ++i) {
+    if (layout.curves[i] == nullptr) continue;
+    m.curve[i] = i == 1 && layout.second_curve_optional ? b.optional_curve(card, layout.curves[i])
+                                                        : b.reference(card, layout.curves[i], b.curves);
+  }
+  return m;
+}
+
+UnsupportedMaterial read_unsupported(const Block& block, const Card& card) {
+  UnsupportedMaterial m;
+  m.keyword = block.as_written();
+  const CardLayout& layout = block.info->card("card0");
+  if (layout.index_of("ro") >= 0) m.density = card.real("ro", dimension::density);
+  if (layout.index_of("e") >= 0) m.youngs_modulus = card.real("e", dimension::stress);
+  if (layout.index_of("pr") >= 0) m.poissons_ratio = card.real("pr");
+  return m;
+}
+
+}  // namespace
+
+void build_material(Builder& b, Block& block) {
+  const auto spring = spring_layouts().find(block.keyword);
+  const bool rigid = block.keyword == "MAT_RIGID", elastic = block.keyword == "MAT_ELASTIC";
+  const bool known = rigid || elastic || spring != spring_layouts().end();
+  do {  // an unknown law's cards are not known either: only the first material of the block is read
+    Material material;
+    if (block.has("TITLE")) material.title = block.next_title();
+    const Card card = block.next("card0");
+    if (!card.present()) return;
+    material.id = card.id("mid", IdKind::material);
+    if (rigid) material.law = read_rigid(b, block, card);
+    else if (elastic) material.law = read_elastic(b, card);
+    else if (known) material.law = read_spring(b, block, card, spring->second);
+    else material.law = read_unsupported(block, card);
+    if (b.materials.enter(card, "mid", static_cast<Index>(b.model.materials.size()))) {
+      b.material_where.push_back({card.where(), block.as_written()});
+      b.model.materials.push_back(std::move(material));
+    }
+  } while (known && !block.at_end());
+}
+
+}  // namespace kardan::deck

@@ -1,0 +1,233 @@
+// *PART, *SECTION, *HOURGLASS.
+#include <array>
+
+#include "kardan/io/deck/build/builder.hpp"
+
+namespace kardan::deck {
+
+Mat3 read_inertia(const Card& card) {
+  const double xx = card.real("ixx", dimension::inertia), xy = card.real("ixy", dimension::inertia),
+               xz = card.real("ixz", dimension::inertia), yy = card.real("iyy", dimension::inertia),
+               yz = card.real("iyz", dimension::inertia), zz = card.real("izz", dimension::inertia);
+  return {{{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}}};
+}
+
+namespace {
+
+/// The tensor of a block turned with its include: R I R^T for the rotation of the transformation.
+Mat3 turned(const Block& block, const Mat3& tensor) {
+  const Affine& affine = block.context().affine;
+  if (affine.is_identity) return tensor;
+  return affine.linear * tensor * transpose(affine.linear);
+}
+
+/// Axes from a vector along x and one in the xy plane (IRCS = 1, *DEFINE_COORDINATE_VECTOR); none where they are parallel.
+std::optional<Mat3> axes_from(const Vec3& along_x, const Vec3& in_plane) {
+  const Vec3 z = cross(along_x, in_plane);
+  if (norm(z) <= 1e-12 * norm(along_x) * norm(in_plane)) return std::nullopt;
+  const Vec3 x = normalized(along_x), k = normalized(z);
+  return Mat3::columns(x, cross(k, x), k);
+}
+
+}  // namespace
+
+GivenInertia read_given_inertia(Builder& b, Block& block, const std::string& frame_field) {
+  GivenInertia given;
+  const Card center = block.next("inertia0");
+  const Card tensor = block.next("inertia1");
+  const Card velocity = block.next_optional("inertia2");
+  given.mass = center.real("tm", dimension::mass);
+  given.center_node = b.optional_node(center, "nodeid");
+  given.center = given.center_node == none ? center.point("xc")
+                                           : b.model.nodes.x[static_cast<std::size_t>(given.center_node)];
+  if (given.mass <= 0) {
+    center.error("tm", "found " + center.text("tm") + ", expected a positive mass", "give the mass of the body");
+  }
+  given.inertia = read_inertia(tensor);
+  for (const auto& [field, i] : {std::pair{"ixx", 0}, std::pair{"iyy", 1}, std::pair{"izz", 2}}) {
+    if (given.inertia[static_cast<std::size_t>(i)][static_cast<std::size_t>(i)] <= 0) {
+      tensor.error(field, "found " + tensor.text(field) + ", expected a positive moment of inertia",
+                   "give the tensor about the centre of mass");
+    }
+  }
+  if (velocity.present()) {
+    given.velocity = velocity.direction("vtx", dimension::velocity);
+    given.angular_velocity = velocity.direction("vrx", dimension::angular_velocity);
+  }
+  if (b.integer_in(center, "ircs", 0, 1) == 0) {
+    given.inertia = turned(block, given.inertia);
+    return given;
+  }
+  const Card axes = block.next("inertia3");
+  if (const Index frame = b.optional_reference(axes, frame_field, b.frames); frame != none) {
+    given.axes = b.model.frames[static_cast<std::size_t>(frame)].axes;
+  } else if (axes.id(frame_field, IdKind::define) == 0) {
+    given.axes = axes_from(axes.direction("xl"), axes.direction("xlip"));
+    if (!given.axes) {
+      axes.error("xl", "the local x-axis and the vector in the xy-plane are parallel or zero",
+                 "give two directions that span a plane");
+    }
+  }
+  return given;
+}
+
+void build_part(Builder& b, Block& block) {
+  const bool inertia = block.has("INERTIA");
+  while (!block.at_end()) {
+    Part part;
+    part.title = block.next_title();
+    const Card card = block.next("card0");
+    if (!card.present()) return;
+    part.id = card.id("pid", IdKind::part);
+    part.section = b.optional_reference(card, "secid", b.sections);
+    part.material = b.optional_reference(card, "mid", b.materials);
+    part.hourglass = b.optional_reference(card, "hgid", b.hourglasses);
+    b.refuse_nonzero(card, "eosid", "an equation of state", "use a material without one");
+    b.ignored(card, "adpopt", "the mesh is not adapted");
+    b.ignored(card, "tmid", "there is no thermal solution");
+    if (inertia) part.inertia = read_given_inertia(b, block, "cid");
+    if (block.has("CONTACT")) block.next("contact");
+    if (block.has("PRINT")) block.next("print");
+    if (b.parts.enter(card, "pid", static_cast<PartIndex>(b.model.parts.size()))) {
+      if (inertia && part.material != none && !b.model.materials[static_cast<std::size_t>(part.material)].rigid()) {
+        card.error("mid", "the part has given inertia but its material is not *MAT_RIGID", "use *MAT_RIGID or *PART");
+      }
+      b.model.parts.push_back(std::move(part));
+      b.part_where.push_back(card.where());
+    }
+  }
+}
+
+namespace {
+
+/// Title (with _TITLE), number and room for a new section; nullptr where the number is taken.
+Section* new_section(Builder& b, const std::string& title, const Card& card, ElementKind kind) {
+  if (!b.sections.enter(card, "secid", static_cast<Index>(b.model.sections.size()))) return nullptr;
+  Section& section = b.model.sections.emplace_back();
+  section.id = card.id("secid", IdKind::other);
+  section.title = title;
+  section.kind = kind;
+  return &section;
+}
+
+std::string title_of(Block& block) { return block.has("TITLE") ? block.next_title() : std::string(); }
+
+int integer_or(const Card& card, std::string_view field, int fallback) {
+  const std::int64_t value = card.integer(field);
+  return value == 0 ? fallback : static_cast<int>(value);
+}
+
+}  // namespace
+
+void build_section_shell(Builder& b, Block& block) {
+  while (!block.at_end()) {
+    const std::string title = title_of(block);
+    const Card card = block.next("card0");
+    const Card sizes = block.next("card1");
+    if (card.integer("icomp") == 1) {  // angles of the layers, eight on a line: of no effect on isotropic materials
+      for (std::int64_t left = card.integer("nip"); left > 0 && !block.at_end(); left -= 8) block.next("card1");
+    }
+    Section* section = new_section(b, title, card, ElementKind::shell);
+    if (section == nullptr) continue;
+    ShellSection& s = section->shell;
+    s.elform = integer_or(card, "elform", 2);
+    s.shrf = Builder::real_or(card, "shrf", 1.0);
+    s.nip = integer_or(card, "nip", 2);
+    if (card.real("qr_irid") < 0) b.unsupported(card, "qr_irid", "an integration rule of *INTEGRATION is not available", "use NIP");
+    s.thickness = {sizes.real("t1", dimension::length), sizes.real("t2", dimension::length),
+                   sizes.real("t3", dimension::length), sizes.real("t4", dimension::length)};
+    for (std::size_t i = 1; i < 4; ++i) {
+      if (s.thickness[i] == 0) s.thickness[i] = s.thickness[0];
+    }
+    if (s.thickness[0] < 0) sizes.error("t1", "is negative", "give a positive thickness");
+    s.nloc = sizes.real("nloc");
+    s.mass_per_area = sizes.real("marea", {1, -2, 0});
+  }
+}
+
+void build_section_solid(Builder& b, Block& block) {
+  while (!block.at_end()) {
+    const std::string title = title_of(block);
+    const Card card = block.next("card0");
+    if (Section* section = new_section(b, title, card, ElementKind::solid)) {
+      section->solid.elform = integer_or(card, "elform", 1);
+    }
+  }
+}
+
+void build_section_beam(Builder& b, Block& block) {
+  while (!block.at_end()) {
+    const std::string title = title_of(block);
+    const Card card = block.next("card0");
+    const int elform = integer_or(card, "elform", 1);
+    const bool resultant = elform == 2 || elform == 12 || elform == 13, truss = elform == 3, discrete = elform == 6;
+    const Card sizes = block.next(resultant ? "resultant" : (truss ? "truss" : (discrete ? "discrete" : "integrated")));
+    Section* section = new_section(b, title, card, ElementKind::beam);
+    if (section == nullptr) continue;
+    BeamSection& s = section->beam;
+    s.elform = elform;
+    s.shrf = Builder::real_or(card, "shrf", 1.0);
+    s.cst = static_cast<int>(card.real("cst"));
+    b.refuse_nonzero(card, "nsm", "non-structural mass of the section", "use *ELEMENT_MASS");
+    if (card.real("qr_irid") < 0) b.unsupported(card, "qr_irid", "an integration rule of *INTEGRATION is not available", "use 1 to 5");
+    if (truss) {
+      s.area = sizes.real("a", dimension::area);
+      b.refuse_nonzero(sizes, "stress", "an initial stress of the truss", "leave it out");
+    } else if (resultant) {
+      s.area = sizes.real("a", dimension::area);
+      s.iss = sizes.real("iss", {0, 4, 0});
+      s.itt = sizes.real("itt", {0, 4, 0});
+      s.j = sizes.real("j", {0, 4, 0});
+      s.sa = sizes.real("sas", dimension::area);
+    } else if (discrete) {
+      s.volume = sizes.real("vol", {0, 3, 0});
+      s.inertia = sizes.real("iner", dimension::inertia);
+    } else {
+      s.ts = {sizes.real("ts1", dimension::length), sizes.real("ts2", dimension::length)};
+      s.tt = {sizes.real("tt1", dimension::length), sizes.real("tt2", dimension::length)};
+      if (s.ts[1] == 0) s.ts[1] = s.ts[0];
+      if (s.tt[1] == 0) s.tt[1] = s.tt[0];
+      if (s.cst == 0 && s.tt[0] == 0) s.tt = s.ts;
+    }
+  }
+}
+
+void build_section_discrete(Builder& b, Block& block) {
+  while (!block.at_end()) {
+    const std::string title = title_of(block);
+    const Card card = block.next("card0");
+    const Card limits = block.next_optional("card1");
+    Section* section = new_section(b, title, card, ElementKind::discrete);
+    if (section == nullptr) continue;
+    DiscreteSection& s = section->discrete;
+    s.dro = b.integer_in(card, "dro", 0, 1);
+    const Dimension size = s.dro == 1 ? dimension::none : dimension::length;
+    s.kd = card.real("kd");
+    s.v0 = card.real("v0", s.dro == 1 ? dimension::angular_velocity : dimension::velocity);
+    s.cl = card.real("cl", size);
+    s.fd = card.real("fd", size);
+    s.cdl = limits.real("cdl", size);
+    s.tdl = limits.real("tdl", size);
+  }
+}
+
+void build_hourglass(Builder& b, Block& block) {
+  while (!block.at_end()) {
+    const std::string title = title_of(block);
+    const Card card = block.next("card0");
+    if (!b.hourglasses.enter(card, "hgid", static_cast<Index>(b.model.hourglasses.size()))) continue;
+    Hourglass h;
+    h.id = card.id("hgid", IdKind::other);
+    h.title = title;
+    h.type = static_cast<int>(card.integer("ihq"));
+    h.coefficient = card.real("qm");
+    h.bulk_type = static_cast<int>(card.integer("ibq"));
+    h.q1 = card.real("q1");
+    h.q2 = card.real("q2");
+    h.bending = card.real("qb_vdc");
+    h.warping = card.real("qw");
+    b.model.hourglasses.push_back(h);
+  }
+}
+
+}  // namespace kardan::deck
