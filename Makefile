@@ -17,7 +17,7 @@ demo: packages
 	@echo "The mechanism moved: its results are in $(DEMO)/."
 	@echo "  LS-PrePost:  File > Open > LS-DYNA Binary Plot > $(DEMO)/d3plot, then Post > ASCII or Binout for the curves"
 	@echo "  ParaView:    File > Open > $(DEMO)/d3plot (reader: LS-DYNA)"
-	@echo "  Picture:     python3 tools/render_d3plot.py $(DEMO)/d3plot picture.png"
+	@echo "  Picture:     tools/render_d3plot.py $(DEMO)/d3plot picture.png"
 
 test: build
 	ctest --preset release -j $(JOBS)

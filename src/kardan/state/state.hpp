@@ -37,6 +37,7 @@ struct NodeState {
   std::vector<Vec3> omega;           ///< angular velocities, likewise
   std::vector<Vec3> v_now;           ///< velocities at t_n, valid between kick and drift
   std::vector<Vec3> a;               ///< accelerations at t_n, likewise
+  std::vector<Vec3> omega_now, alpha;///< angular velocities and accelerations at t_n of deformable nodes, likewise (for output)
   std::vector<Vec3> force;           ///< sum of all forces at t_n              (assembly)
   std::vector<Vec3> moment;          ///< sum of all moments at t_n
   std::vector<double> mass;          ///< lumped mass
@@ -46,7 +47,7 @@ struct NodeState {
                                      ///< the other nodes of bodies are brought up to date only for output
 
   void resize(std::size_t n) {
-    for (auto* a3 : {&x, &v, &omega, &v_now, &a, &force, &moment}) a3->assign(n, Vec3{});
+    for (auto* a3 : {&x, &v, &omega, &v_now, &a, &omega_now, &alpha, &force, &moment}) a3->assign(n, Vec3{});
     mass.assign(n, 0.0);
     inertia.assign(n, 0.0);
     body.assign(n, none);

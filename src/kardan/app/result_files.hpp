@@ -1,0 +1,25 @@
+// The writers of results as an observer of the run.
+#pragma once
+
+#include <filesystem>
+
+#include "kardan/io/results_writer.hpp"
+#include "kardan/solver/solver.hpp"
+
+namespace kardan::app {
+
+class ResultFiles : public Observer {
+ public:
+  ResultFiles(const Solver& solver, const std::filesystem::path& folder);
+
+  bool due(const State& state, const StepView& view) override;
+  void at(const Model& model, const State& state, const StepView& view) override;
+  /// Completes all files. @throws RunError if one cannot be written.
+  void close();
+  const ResultsWriter& writer() const { return writer_; }
+
+ private:
+  ResultsWriter writer_;
+};
+
+}  // namespace kardan::app

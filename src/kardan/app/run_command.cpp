@@ -1,0 +1,160 @@
+#include "kardan/app/run_command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "kardan/app/interrupt.hpp"
+#include "kardan/app/isa.hpp"
+#include "kardan/app/progress.hpp"
+#include "kardan/app/result_files.hpp"
+#include "kardan/app/summary.hpp"
+#include "kardan/app/version.hpp"
+#include "kardan/io/deck/load.hpp"
+#include "kardan/io/report/model_report.hpp"
+#include "kardan/solver/solver.hpp"
+
+namespace kardan::app {
+
+namespace {
+
+SolverOptions solver_options(const RunRequest& request) {
+  return {.joints = request.joints, .end_time = {}, .dt = request.dt, .threads = request.threads};
+}
+
+/// The model of the deck. An end time of the command line takes the place of ENDTIM, so that whoever reads the model's
+/// control (writers, solver) sees the one that holds.
+Model load(const RunRequest& request, Diagnostics& diagnostics) {
+  deck::LoadOptions options;
+  options.read.without.insert(request.without.begin(), request.without.end());
+  options.build.end_time = request.end_time.value_or(0.0);
+  Model model = deck::load_model(request.deck, options, diagnostics);
+  if (request.end_time) model.control.termination.end_time = *request.end_time;
+  return model;
+}
+
+/// What the deck asks for and Kardan cannot compute refuses the run.
+void refuse_unsupported(const Model& model, Diagnostics& diagnostics) {
+  for (const Diagnostic& unsupported : model.unsupported) diagnostics.add(unsupported);
+}
+
+void refuse(const Diagnostics& diagnostics, Log& log) {
+  log.diagnostics(diagnostics);
+  const std::size_t errors = diagnostics.error_count();
+  log.error(fmt::format("{} error{}: the deck cannot be run", errors, errors == 1 ? "" : "s"));
+}
+
+void say_instruction_set(const RunRequest& request, Log& log) {
+  if (request.isa && *request.isa != built_isa())
+    log.line(fmt::format("notice: --isa {}: this build has its kernels for {} only, they are used", to_string(*request.isa),
+                         to_string(built_isa())));
+}
+
+/// Which files are written beyond, or short of, what the deck asks for.
+void say_files(const ResultsWriter& writer, Log& log) {
+  if (writer.defaulted())
+    log.line("notice: the deck has no *DATABASE_… request: d3plot (20 states) and glstat are written all the same");
+  for (OutputFile file : writer.unwritten())
+    log.line(fmt::format("warning: *DATABASE_{} is asked for, but this version does not write it", to_string(file)));
+}
+
+/// Where the results are and what opens them.
+void say_results(const std::filesystem::path& folder, Log& log) {
+  log.line(fmt::format("results in {}:", folder.string()));
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (const std::string name = entry.path().filename().string(); name == "d3plot")
+      log.line("  d3plot        states of the model: LS-PrePost, ParaView (open as LS-DYNA), lasso, META");
+    else if (name.starts_with("binout"))
+      log.line(fmt::format("  {:<13} histories: LS-PrePost (Binout), lasso", name));
+  log.line("  summary.json  how the run went");
+}
+
+/// The run itself, once the model stands. Returns what broke it, or nothing.
+std::string march(Solver& solver) {
+  const InterruptGuard guard(solver);
+  try {
+    solver.run();
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void say_end(const Solver& solver, const std::string& failure, double seconds, Log& log) {
+  if (!failure.empty()) log.error("error: " + failure);
+  const Clock& clock = solver.state().clock;
+  const char* kind = normal(solver.stop_reason()) ? "normal termination" : "error termination";
+  log.line(fmt::format("{}: {} at t = {:g} after {} cycles and {:.2f} s", kind, to_string(solver.stop_reason()), clock.time,
+                       clock.cycle, seconds));
+}
+
+}  // namespace
+
+int run_deck(const RunRequest& request, Log& log) {
+  const Stopwatch watch;
+  const BuildInfo& build = build_info();
+  log.line(fmt::format("kardan {} (commit {}), {} thread{}", build.version, build.commit, request.threads,
+                       request.threads == 1 ? "" : "s"));
+  for (const std::string& note : request.notes) log.line("notice: " + note);
+  say_instruction_set(request, log);
+
+  Diagnostics diagnostics;
+  const Model model = load(request, diagnostics);
+  refuse_unsupported(model, diagnostics);
+  if (!diagnostics.ok()) {
+    refuse(diagnostics, log);
+    return bad_input;
+  }
+  RunRecord record{request, diagnostics, watch.seconds(), 0, {}};
+  std::optional<Solver> solver;
+  try {
+    solver.emplace(model, solver_options(request), diagnostics);
+  } catch (const InputError&) {
+    refuse(diagnostics, log);
+    return bad_input;
+  }
+
+  const std::filesystem::path folder = request.results_folder();
+  std::filesystem::create_directories(folder);
+  log.open_file(folder / "kardan.log");
+  log.line(fmt::format("deck: {}", request.deck.string()));
+  if (!model.title.empty()) log.line(fmt::format("title: {}", model.title));
+  log.diagnostics(diagnostics);
+
+  ResultFiles results(*solver, folder);
+  say_files(results.writer(), log);
+  Progress progress(log);
+  solver->attach(results);
+  solver->attach(progress);
+  record.failure = march(*solver);
+  results.close();
+  record.wall_seconds = watch.seconds();
+  write_summary(folder / "summary.json", summarize(*solver, record));
+  say_end(*solver, record.failure, record.wall_seconds, log);
+  say_results(folder, log);
+  return normal(solver->stop_reason()) ? normal_termination : error_termination;
+}
+
+int check_deck(const RunRequest& request, Log& log) {
+  Diagnostics diagnostics;
+  const Model model = load(request, diagnostics);
+  log.line(model_report(model));
+  refuse_unsupported(model, diagnostics);
+  if (diagnostics.ok()) {
+    try {
+      const Solver solver(model, solver_options(request), diagnostics);
+    } catch (const InputError&) {  // what is wrong stands in `diagnostics`
+    }
+  }
+  if (!diagnostics.ok()) {
+    refuse(diagnostics, log);
+    return bad_input;
+  }
+  log.diagnostics(diagnostics);
+  log.line("the deck can be run");
+  return normal_termination;
+}
+
+}  // namespace kardan::app

@@ -1,0 +1,103 @@
+#include "kardan/app/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "kardan/app/isa.hpp"
+#include "kardan/app/version.hpp"
+
+namespace kardan::app {
+
+namespace {
+
+using nlohmann::json;
+
+const char* key(StopReason reason) {
+  static constexpr const char* keys[] = {"running", "end_time", "end_cycle", "min_step", "energy", "interrupted", "broken"};
+  return keys[static_cast<int>(reason)];
+}
+
+json energies(const EnergyLedger& e) {
+  const double given = std::abs(e.initial) + std::abs(e.external_work);
+  return {{"kinetic", e.kinetic},
+          {"internal", e.internal},
+          {"spring_and_damper", e.spring_damper},
+          {"hourglass", e.hourglass},
+          {"system_damping", e.system_damping},
+          {"sliding", e.sliding},
+          {"joint", e.joint},
+          {"stopper", e.stopper},
+          {"external_work", e.external_work},
+          {"initial", e.initial},
+          {"initial_joint_loss", e.initial_joint_loss},
+          {"total", e.total()},
+          {"ratio", e.ratio()},
+          {"error", given > 0 ? (e.total() - e.initial - e.external_work) / given : 0.0}};
+}
+
+json wall_seconds(const Solver& solver, const RunRecord& record) {
+  json seconds{{"total", record.wall_seconds}, {"reading", record.reading_seconds}};
+  for (int p = 0; p < static_cast<int>(Phase::count); ++p) {
+    std::string name = to_string(static_cast<Phase>(p));
+    for (char& c : name) c = c == ' ' ? '_' : c;
+    seconds[name] = solver.timers().seconds(static_cast<Phase>(p));
+  }
+  return seconds;
+}
+
+json messages(const Diagnostics& diagnostics, Severity severity) {
+  json list = json::array();
+  for (const Diagnostic& d : diagnostics.all())
+    if (d.severity == severity) list.push_back(to_string(d));
+  return list;
+}
+
+}  // namespace
+
+json summarize(const Solver& solver, const RunRecord& record) {
+  const Model& model = solver.model();
+  const State& state = solver.state();
+  const BuildInfo& build = build_info();
+  json summary;
+  summary["program"] = {{"name", "kardan"}, {"version", build.version}, {"commit", build.commit},
+                        {"compiler", build.compiler}};
+  summary["deck"] = record.request.deck.string();
+  summary["title"] = model.title;
+  summary["termination"] = {{"reason", key(solver.stop_reason())},
+                            {"text", to_string(solver.stop_reason())},
+                            {"normal", normal(solver.stop_reason())},
+                            {"message", record.failure}};
+  summary["cycles"] = state.clock.cycle;
+  summary["time"] = state.clock.time;
+  summary["end_time"] = solver.end_time();
+  summary["dt"] = state.clock.dt;
+  summary["dt_governed_by"] = to_string(solver.view().step);
+  summary["joints"] =
+      joint_holding(model, record.request.joints).holding == JointHolding::exact ? "exact" : "penalty";
+  summary["threads"] = record.request.threads;
+  summary["instruction_set"] = to_string(built_isa());
+  summary["model"] = {{"nodes", model.nodes.size()},   {"parts", model.parts.size()},
+                      {"shells", model.shells.size()}, {"solids", model.solids.size()},
+                      {"beams", model.beams.size()},   {"discretes", model.discretes.size()},
+                      {"bodies", state.bodies.motion.size()}, {"joints", model.joints.size()}};
+  summary["wall_seconds"] = wall_seconds(solver, record);
+  summary["energies"] = energies(state.energy);
+  const RigidSystem::Separation separation = solver.rigid().largest_separation();
+  summary["joint_separation"] = {{"distance", separation.distance}, {"angle", separation.angle}};
+  if (separation.joint != none)
+    summary["joint_separation"]["joint"] = model.joints[static_cast<std::size_t>(separation.joint)].id;
+  summary["state_hash"] = fmt::format("{:016x}", state.registry.hash());
+  summary["warnings"] = messages(record.diagnostics, Severity::warning);
+  summary["notices"] = messages(record.diagnostics, Severity::notice);
+  return summary;
+}
+
+void write_summary(const std::filesystem::path& path, const json& summary) {
+  std::ofstream file(path);
+  file << summary.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
+  if (!file.flush()) throw RunError(fmt::format("cannot write {}", path.string()));
+}
+
+}  // namespace kardan::app

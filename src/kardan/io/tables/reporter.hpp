@@ -1,0 +1,42 @@
+// Collects what each time-history file reports at t_n.
+#pragma once
+
+#include <vector>
+
+#include "kardan/io/tables/body_frames.hpp"
+#include "kardan/io/tables/snapshot.hpp"
+#include "kardan/model/model.hpp"
+#include "kardan/state/state.hpp"
+
+namespace kardan {
+
+class Reporter {
+ public:
+  Reporter(const Model& model, const State& state) : frames_(model, state) {}
+
+  /// Files this reporter knows.
+  static const std::vector<OutputFile>& files();
+
+  /// To be called once at every output time, before take().
+  void follow(const State& state) { frames_.follow(state); }
+
+  /// What `file` (one of files()) reports at t_n; without folders if the model has nothing of the kind.
+  Snapshot take(OutputFile file, const Model& model, const State& state) const;
+
+ private:
+  BodyFrames frames_;
+};
+
+/// The pieces of Reporter::take, one for each file.
+Folder glstat_folder(const Model& model, const State& state);
+Folder matsum_folder(const Model& model, const State& state);
+Folder nodout_folder(const Model& model, const State& state, const BodyFrames& frames);
+Folder rbdout_folder(const Model& model, const State& state, const BodyFrames& frames);
+/// /jntforc/joints, type0 (generalized), type1 (flexion-torsion), type2 (translational and cylindrical).
+std::vector<Folder> jntforc_folders(const Model& model, const State& state, const BodyFrames& frames);
+/// /bndout/velocity/nodes and /bndout/velocity/rigidbodies.
+std::vector<Folder> bndout_folders(const Model& model, const State& state);
+Folder spcforc_folder(const Model& model, const State& state);
+Folder deforc_folder(const Model& model, const State& state);
+
+}  // namespace kardan
