@@ -122,10 +122,12 @@ void NodeMover::settle(State& state) const {
 #pragma omp parallel for schedule(static) if (count > parallel_threshold)
   for (std::ptrdiff_t k = 0; k < count; ++k) {
     const std::size_t i = at(free_[static_cast<std::size_t>(k)]);
-    const Vec3& before = v_before_[static_cast<std::size_t>(k)];
-    const Vec3 change = nodes.v[i] - before;
-    nodes.v_now[i] = before + change * share;
-    nodes.a[i] = change / kick;
+    const Vec3& v = v_before_[static_cast<std::size_t>(k)];
+    const Vec3& omega = omega_before_[static_cast<std::size_t>(k)];
+    nodes.v_now[i] = v + (nodes.v[i] - v) * share;
+    nodes.a[i] = (nodes.v[i] - v) / kick;
+    nodes.omega_now[i] = omega + (nodes.omega[i] - omega) * share;
+    nodes.alpha[i] = (nodes.omega[i] - omega) / kick;
   }
   for (NodeIndex node : unattached_) nodes.v_now[at(node)] = nodes.v[at(node)];
 }
@@ -145,11 +147,10 @@ void NodeMover::drift(State& state) const {
 void NodeMover::account(State& state) const {
   const NodeState& nodes = state.nodes;
   EnergyLedger& energy = state.energy;
-  const double share = state.clock.share_before();
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const std::size_t i = at(free_[k]);
-    const Vec3 omega = omega_before_[k] + (nodes.omega[i] - omega_before_[k]) * share;
-    const double e = 0.5 * (nodes.mass[i] * dot(nodes.v_now[i], nodes.v_now[i]) + nodes.inertia[i] * dot(omega, omega));
+    const double e = 0.5 * (nodes.mass[i] * dot(nodes.v_now[i], nodes.v_now[i]) +
+                            nodes.inertia[i] * dot(nodes.omega_now[i], nodes.omega_now[i]));
     energy.kinetic += e;
     for (std::size_t s = share_begin_[k]; s < share_begin_[k + 1]; ++s)
       energy.part_kinetic[at(shares_[s].part)] += shares_[s].fraction * e;

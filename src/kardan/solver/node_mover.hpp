@@ -20,7 +20,7 @@ class NodeMover {
   /// Velocities of the free nodes to t_{n+1/2}: v += F/m kick, omega += M/I kick.
   /// @throws RunError naming a node whose velocity is no longer finite; all nodes then have their velocities of before.
   void kick(const Model& model, State& state);
-  /// After the velocities were constrained: v_now and a at t_n.
+  /// After the velocities were constrained: v_now, a, omega_now and alpha at t_n.
   void settle(State& state) const;
   /// Positions to t_{n+1}.
   void drift(State& state) const;
