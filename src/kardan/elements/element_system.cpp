@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kardan/elements/discrete/discrete_forces.hpp"
 #include "kardan/elements/geometry.hpp"
 #include "kardan/elements/lumped_mass.hpp"
 
@@ -45,15 +46,18 @@ void refuse_deformable(const Model& model, const Block& block, const char* keywo
 }  // namespace
 
 struct ElementSystem::Impl {
+  Impl(const Model& model, State& state, Diagnostics& diagnostics) : discretes(model, state, diagnostics) {}
+
+  DiscreteForces discretes;
   std::vector<double> internal, hourglass;  ///< energies at t_n by part
 };
 
-ElementSystem::ElementSystem(const Model& model, State& state, Diagnostics& diagnostics) : impl_(std::make_unique<Impl>()) {
+ElementSystem::ElementSystem(const Model& model, State& state, Diagnostics& diagnostics) {
   add_lumped_masses(model, state, diagnostics);
+  impl_ = std::make_unique<Impl>(model, state, diagnostics);
   refuse_deformable(model, model.shells, "*ELEMENT_SHELL", "shells", diagnostics);
   refuse_deformable(model, model.solids, "*ELEMENT_SOLID", "solids", diagnostics);
   refuse_deformable(model, model.beams, "*ELEMENT_BEAM", "beams", diagnostics);
-  refuse_deformable(model, model.discretes, "*ELEMENT_DISCRETE", "springs", diagnostics);
   state.discretes.assign(model.discretes.size(), DiscreteReport{});
   state.energy.part_internal.assign(model.parts.size(), 0.0);
   state.energy.part_hourglass.assign(model.parts.size(), 0.0);
@@ -65,11 +69,13 @@ ElementSystem::~ElementSystem() = default;
 ElementSystem::ElementSystem(ElementSystem&&) noexcept = default;
 ElementSystem& ElementSystem::operator=(ElementSystem&&) noexcept = default;
 
-void ElementSystem::internal_forces(const Model&, State&) {}
+void ElementSystem::internal_forces(const Model& model, State& state) {
+  impl_->discretes.internal_forces(model, state);
+}
 
-double ElementSystem::stable_time_step() const { return unlimited; }
+double ElementSystem::stable_time_step() const { return governing().time_step; }
 
-Governing ElementSystem::governing() const { return {ElementKind::shell, 0, stable_time_step()}; }
+Governing ElementSystem::governing() const { return impl_->discretes.governing(); }
 
 double ElementSystem::rigid_courant_time_step(const Model& model, const State& state) const {
   double dt = unlimited;
@@ -89,7 +95,7 @@ double ElementSystem::rigid_courant_time_step(const Model& model, const State& s
   });
   each(model.solids, [&](std::size_t e, const BulkProperties& m) {
     const auto& n = model.solids.nodes[e];
-    return solid_length(gather_coordinates(state.nodes.x, n), distinct_nodes(n)) / solid_speed(m);
+    return solid_length(gather_coordinates(state.nodes.x, n), n) / solid_speed(m);
   });
   each(model.beams, [&](std::size_t e, const BulkProperties& m) {
     const auto x = gather_coordinates(state.nodes.x, std::array{model.beams.nodes[e][0], model.beams.nodes[e][1]});
@@ -99,6 +105,7 @@ double ElementSystem::rigid_courant_time_step(const Model& model, const State& s
 }
 
 void ElementSystem::account(const Model&, State& state) {
+  state.energy.spring_damper = impl_->discretes.energy();
   state.energy.part_internal = impl_->internal;
   state.energy.part_hourglass = impl_->hourglass;
 }

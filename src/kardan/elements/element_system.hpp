@@ -4,17 +4,11 @@
 #include <memory>
 
 #include "kardan/base/diagnostics.hpp"
+#include "kardan/elements/governing.hpp"
 #include "kardan/model/model.hpp"
 #include "kardan/state/state.hpp"
 
 namespace kardan {
-
-/// The element that governs the time step.
-struct Governing {
-  ElementKind kind = ElementKind::shell;
-  UserId element = 0;   ///< the user's number; 0 = no element limits dt
-  double time_step = 0; ///< its stable time step, unscaled
-};
 
 class ElementSystem {
  public:

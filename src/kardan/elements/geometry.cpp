@@ -41,12 +41,44 @@ int distinct_nodes(const std::array<NodeIndex, 8>& nodes) {
   return count;
 }
 
-double solid_length(const ElementCoordinates<8>& x, int distinct) {
+namespace {
+
+/// Corners of a tetrahedron among the eight nodes.
+ElementCoordinates<4> tetrahedron(const ElementCoordinates<8>& x, const std::array<NodeIndex, 8>& nodes) {
+  ElementCoordinates<4> corner;
+  std::size_t count = 0;
+  for (std::size_t a = 0; a < 8 && count < 4; ++a) {
+    if (std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(a), nodes[a]) ==
+        nodes.begin() + static_cast<std::ptrdiff_t>(a)) {
+      corner[count++] = x[a];
+    }
+  }
+  return corner;
+}
+
+}  // namespace
+
+double solid_volume(const ElementCoordinates<8>& x, const std::array<NodeIndex, 8>& nodes) {
+  if (distinct_nodes(nodes) != 4) return hexahedron_volume(x);
+  const ElementCoordinates<4> t = tetrahedron(x, nodes);
+  return dot(cross(t[1] - t[0], t[2] - t[0]), t[3] - t[0]) / 6.0;
+}
+
+double solid_length(const ElementCoordinates<8>& x, const std::array<NodeIndex, 8>& nodes) {
+  const double volume = std::abs(solid_volume(x, nodes));
   double largest = 0;
+  if (distinct_nodes(nodes) == 4) {
+    const ElementCoordinates<4> t = tetrahedron(x, nodes);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3& a = t[(i + 1) % 4];
+      largest = std::max(largest, 0.5 * norm(cross(t[(i + 2) % 4] - a, t[(i + 3) % 4] - a)));
+    }
+    return 3.0 * volume / largest;
+  }
   for (const auto& f : faces) {
     largest = std::max(largest, 0.5 * norm(cross(x[f[2]] - x[f[0]], x[f[3]] - x[f[1]])));
   }
-  return (distinct == 4 ? 3.0 : 1.0) * std::abs(hexahedron_volume(x)) / largest;
+  return volume / largest;
 }
 
 }  // namespace kardan

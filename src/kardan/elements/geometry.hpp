@@ -42,15 +42,18 @@ inline double shell_length(const ElementCoordinates<4>& x, bool triangle, int is
 }
 
 /// Volume of an eight-node hexahedron with trilinear sides [length^3], negative if it is turned inside out: 2x2x2 Gauss
-/// points are exact, the Jacobian determinant being of degree two in each natural coordinate. Degenerate solids repeat
-/// nodes and need no case of their own.
+/// points are exact, the Jacobian determinant being of degree two in each natural coordinate.
 double hexahedron_volume(const ElementCoordinates<8>& x);
 
 /// Number of distinct nodes of a solid (8 hexahedron, 6 wedge, 5 pyramid, 4 tetrahedron).
 int distinct_nodes(const std::array<NodeIndex, 8>& nodes);
 
+/// Volume of a solid [length^3]. Wedges and pyramids are hexahedra with repeated nodes; of a tetrahedron (four distinct nodes,
+/// usually N1 N2 N3 N4 N4 N4 N4 N4) the trilinear map would fill only half, so it is computed from its corners.
+double solid_volume(const ElementCoordinates<8>& x, const std::array<NodeIndex, 8>& nodes);
+
 /// Characteristic length of a solid [length]: volume / largest face; for a tetrahedron (four distinct nodes) its smallest
 /// altitude, 3 V / largest face. Source: Hallquist, LS-DYNA Theory Manual 2006, "Time step calculations for solid elements".
-double solid_length(const ElementCoordinates<8>& x, int distinct);
+double solid_length(const ElementCoordinates<8>& x, const std::array<NodeIndex, 8>& nodes);
 
 }  // namespace kardan

@@ -102,7 +102,7 @@ void add_solids(const Model& model, State& state, Diagnostics& diagnostics) {
     const PartProperties& part = parts[solids.part[e]];
     if (part.section == nullptr) continue;
     const auto& nodes = solids.nodes[e];
-    const double volume = hexahedron_volume(gather_coordinates(model.nodes.x, nodes));
+    const double volume = solid_volume(gather_coordinates(model.nodes.x, nodes), nodes);
     // A rigid solid only carries mass, and a mesh mirrored from its other half is common: its orientation does not matter.
     if (volume == 0 || (volume < 0 && !part.rigid)) {
       diagnostics.error("solid " + std::to_string(solids.id[e]) + " has the volume " + std::to_string(volume),

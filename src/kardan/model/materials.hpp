@@ -35,7 +35,7 @@ enum class SpringLaw : std::uint8_t {
   elastic_spring,            ///< S01: f = K d
   viscous_damper,            ///< S02: f = DC v
   elastoplastic_spring,      ///< S03: K, KT, FY
-  nonlinear_elastic_spring,  ///< S04: f = LCD(d) (1 + LCR(v))
+  nonlinear_elastic_spring,  ///< S04: f = LCD(d) LCR(v), the second a scale factor, 1 without a curve
   nonlinear_viscous_damper,  ///< S05: f = LCDR(v)
   general_nonlinear_spring,  ///< S06: LCDL, LCDU, BETA, TYI, CYI
   maxwell_spring,            ///< S07: K0, KI, BETA, TC, FC, COPT

@@ -1,0 +1,125 @@
+// A small model and a leapfrog of its own, for tests of elements.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "kardan/elements/element_system.hpp"
+
+namespace kardan::test {
+
+struct Bench {
+  Model model;
+  State state;
+  Diagnostics diagnostics;
+  std::unique_ptr<ElementSystem> elements;
+
+  NodeIndex node(const Vec3& x) {
+    const auto n = static_cast<NodeIndex>(model.nodes.size());
+    model.nodes.id.push_back(n + 1);
+    model.nodes.index_of.emplace(n + 1, n);
+    model.nodes.x.push_back(x);
+    model.nodes.constrained.push_back(0);
+    return n;
+  }
+  CurveIndex curve(std::vector<double> x, std::vector<double> y) {
+    Curve c;
+    c.x = std::move(x);
+    c.y = std::move(y);
+    model.curves.push_back(c);
+    return static_cast<CurveIndex>(model.curves.size()) - 1;
+  }
+  /// A part of a new section and a new material.
+  PartIndex part(Section section, Material material) {
+    const auto p = static_cast<PartIndex>(model.parts.size());
+    section.id = material.id = 100 + p;
+    model.sections.push_back(section);
+    model.materials.push_back(material);
+    Part entry;
+    entry.id = 100 + p;
+    entry.section = static_cast<Index>(model.sections.size()) - 1;
+    entry.material = static_cast<Index>(model.materials.size()) - 1;
+    model.parts.push_back(entry);
+    return p;
+  }
+  PartIndex spring_part(const SpringMaterial& law, const DiscreteSection& discrete = {}) {
+    Section section;
+    section.kind = ElementKind::discrete;
+    section.discrete = discrete;
+    Material material;
+    material.law = law;
+    return part(section, material);
+  }
+  PartIndex shell_part(double thickness, double density, double e, double nu, int nip = 2, double shrf = 1.0) {
+    Section section;
+    section.kind = ElementKind::shell;
+    section.shell.thickness = {thickness, thickness, thickness, thickness};
+    section.shell.nip = nip;
+    section.shell.shrf = shrf;
+    Material material;
+    material.law = ElasticMaterial{density, e, nu, 0, 0};
+    return part(section, material);
+  }
+  void spring(PartIndex p, NodeIndex a, NodeIndex b, Index orientation = none, double scale = 1, double offset = 0) {
+    auto& d = model.discretes;
+    d.id.push_back(500 + static_cast<UserId>(d.id.size()));
+    d.part.push_back(p);
+    d.nodes.push_back({a, b});
+    d.orientation.push_back(orientation);
+    d.scale.push_back(scale);
+    d.print.push_back(0);
+    d.offset.push_back(offset);
+  }
+  void shell(PartIndex p, std::array<NodeIndex, 4> nodes) {
+    model.shells.id.push_back(1000 + static_cast<UserId>(model.shells.id.size()));
+    model.shells.part.push_back(p);
+    model.shells.nodes.push_back(nodes);
+  }
+  void mass(NodeIndex n, double m, double inertia = 0) {
+    PointInertia p;
+    p.node = n;
+    p.mass = m;
+    p.inertia = Mat3::identity() * inertia;
+    model.inertias.push_back(p);
+  }
+
+  void start() {
+    state.nodes.resize(model.nodes.size());
+    state.nodes.x = model.nodes.x;
+    state.bodies.of_part.assign(model.parts.size(), none);
+    state.registry.add({"nodes.x", "length", "nodes.drift"}, state.nodes.x);
+    state.registry.add({"nodes.v", "length/time", "nodes.kick"}, state.nodes.v);
+    elements = std::make_unique<ElementSystem>(model, state, diagnostics);
+  }
+  void forces() {
+    std::fill(state.nodes.force.begin(), state.nodes.force.end(), Vec3{});
+    std::fill(state.nodes.moment.begin(), state.nodes.moment.end(), Vec3{});
+    elements->internal_forces(model, state);
+  }
+  /// One cycle; `hold` may change the kicked velocities, `load` the forces.
+  template <class Load, class Hold>
+  void step(double dt, Load load, Hold hold) {
+    state.clock.dt = dt;
+    forces();
+    load();
+    const double kick = state.clock.kick();
+    for (std::size_t n = 0; n < state.nodes.x.size(); ++n) {
+      if (state.nodes.mass[n] > 0) state.nodes.v[n] += state.nodes.force[n] * (kick / state.nodes.mass[n]);
+      if (state.nodes.inertia[n] > 0) state.nodes.omega[n] += state.nodes.moment[n] * (kick / state.nodes.inertia[n]);
+    }
+    hold();
+    elements->account(model, state);
+    for (std::size_t n = 0; n < state.nodes.x.size(); ++n) state.nodes.x[n] += state.nodes.v[n] * dt;
+    state.clock.time += dt;
+    state.clock.dt_previous = dt;
+    ++state.clock.cycle;
+  }
+  void step(double dt) {
+    step(dt, [] {}, [] {});
+  }
+};
+
+}  // namespace kardan::test
