@@ -36,6 +36,7 @@ class BlockCholesky {
   void clear();
   /// Diagonal block, row-major size x size; the lower triangle is read.
   double* diagonal(int block) { return values_.data() + diagonal_[static_cast<std::size_t>(block)]; }
+  std::size_t coupling_count() const { return coupling_.size(); }
   const Coupling& coupling(std::size_t pair) const { return coupling_[pair]; }
   double* values(const Coupling& c) { return values_.data() + c.offset; }
 

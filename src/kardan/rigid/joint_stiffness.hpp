@@ -1,0 +1,67 @@
+// *CONSTRAINED_JOINT_STIFFNESS_GENERALIZED, _FLEXION-TORSION, _TRANSLATIONAL, _CYLINDRICAL: moments and forces between two
+// bodies against relative angles and displacements. Independent of any joint. (Paper, section on stiffness and damping of
+// joints, fig. 2.)
+//
+// Frames A and B (CIDA, CIDB) turn with their bodies. Each of up to three relative coordinates q with direction e gets
+//   m = curve(q) + damping_curve(q') + friction + stop,           moment (force) -m e on B and +m e on A,
+//   friction: an elastic-perfectly plastic spring, f += ES dq, |f| <= FM (or FM(q); or mu |N| with the joint's force N),
+//   stop:     ES (q - q_stop) beyond the stop.
+// Coordinates:
+//   generalized      rotations of B against A about the axes of A. JNTF = 0 (default): sum of the relative rotation's
+//                    increments, exact for any angle about one axis; JNTF = 1, 2: rotation vector of B in A.
+//   flexion-torsion  alpha angle between the z axes, about their common normal; beta twist about z_B that remains after
+//                    the bend; gamma direction of the bend in A's x-y plane, scales the alpha moment.
+//   translational    displacement of B's origin from A's along the axes of B.
+//   cylindrical      its distance r from the z axis of A, and z along it.
+// Rates are those of t_{n-1/2} carried on to t_n linearly.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kardan/base/diagnostics.hpp"
+#include "kardan/model/model.hpp"
+#include "kardan/rigid/body_set.hpp"
+#include "kardan/rigid/joint_set.hpp"
+#include "kardan/state/state.hpp"
+
+namespace kardan {
+
+class JointStiffnesses {
+ public:
+  void initialise(const Model& model, State& state, const JointSet& joints, Diagnostics& diagnostics);
+  /// Adds the forces and moments at t_n to state.bodies and fills state.joint_stiffnesses. `joint_force` holds the rows'
+  /// forces of the cycle before (friction by the joint's force).
+  void apply(const Model& model, State& state, const BodySet& bodies, const JointSet& joints,
+             const std::vector<double>& joint_force);
+  /// Stored and dissipated energy so far.
+  double energy(const State& state) const;
+  void register_state(State& state);
+
+ private:
+  struct Element {
+    BodyIndex a, b;
+    Mat3 axes_a, axes_b;       ///< columns in the principal axes of the bodies
+    Vec3 origin_a, origin_b;   ///< from the centres, principal axes
+    int joint = -1;            ///< into JointSet::joints, for friction by the joint's force
+    Index model_index;
+  };
+  struct Memory {              ///< carried from cycle to cycle
+    Quat relative;             ///< orientation of B in A at t_{n-1}
+    std::array<double, 3> coordinate, rate_before, friction, moment;
+  };
+  struct Kinematics {          ///< at t_n
+    std::array<double, 3> coordinate, rate;
+    std::array<Vec3, 3> direction;   ///< of the moments (forces), global
+    Vec3 point;                      ///< forces act here
+    double bend = 1, bend_rate = 1;  ///< gamma factors
+  };
+  Kinematics kinematics(const Model& model, const State& state, const BodySet& bodies, const Element& e, Memory& m) const;
+  double friction(const Model& model, const JointStiffness::Coordinate& c, double q, double dq, double rate,
+                  double normal_force, double automatic_stiffness, double before) const;
+
+  std::vector<Element> elements_;
+  std::vector<Memory> memory_;
+};
+
+}  // namespace kardan
