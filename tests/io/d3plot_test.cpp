@@ -40,12 +40,18 @@ nlohmann::json expected_of(const Model& m) {
   nlohmann::json e;
   e["title"] = m.title;
   e["part_names"] = {"strut", "spring", "rigid plate", "block", "Part 30"};
-  e["elements"] = {{"72", {"rigid plate", {102, 105, 106, 103}}}, {"71", {"rigid plate", {101, 102, 103, 104}}},
-                   {"41", {"Part 30", {201, 202, 203, 204}}},     {"80", {"Part 30", {202, 205, 203, 203}}},
-                   {"900", {"block", {1, 2, 3, 4, 11, 12, 13, 14}}}, {"33", {"strut", {301, 302}}},
+  e["elements"] = {{"72", {"rigid plate", {102, 105, 106, 103}}},
+                   {"71", {"rigid plate", {101, 102, 103, 104}}},
+                   {"41", {"Part 30", {201, 202, 203, 204}}},
+                   {"80", {"Part 30", {202, 205, 203, 203}}},
+                   {"900", {"block", {1, 2, 3, 4, 11, 12, 13, 14}}},
+                   {"33", {"strut", {301, 302}}},
                    {"31", {"spring", {303, 106}}}};
-  e["part_nodes"] = {{"strut", {301, 302}}, {"spring", {106, 303}}, {"rigid plate", {101, 102, 103, 104, 105, 106}},
-                     {"block", {1, 2, 3, 4, 11, 12, 13, 14}}, {"Part 30", {201, 202, 203, 204, 205}}};
+  e["part_nodes"] = {{"strut", {301, 302}},
+                     {"spring", {106, 303}},
+                     {"rigid plate", {101, 102, 103, 104, 105, 106}},
+                     {"block", {1, 2, 3, 4, 11, 12, 13, 14}},
+                     {"Part 30", {201, 202, 203, 204, 205}}};
   e["cells"] = nlohmann::json::object();
   e["states"] = nlohmann::json::array();
   return e;
@@ -86,10 +92,10 @@ TEST(D3plot, ControlWordsStandWhereReadersLookForThem) {
   std::memcpy(&version, &w[14], 4);
   EXPECT_EQ(version, 971.0f);
   const std::vector<std::pair<std::size_t, std::int32_t>> wanted = {
-      {11, 1},  {15, 4},  {16, 24}, {17, 6},  {18, 6 + 7 * 5}, {19, 0},   {20, 1},  {21, 1},    {22, 1},    {23, 1},
-      {24, 1},  {27, 7},  {28, 2},  {29, 2},  {30, 6},         {31, 4},   {32, 2},  {33, 33},   {34, 0},    {35, 0},
-      {36, 3},  {37, 0},  {38, 0},  {39, 16 + 24 + 1 + 2 + 4 + 3 * 5},   {40, 0},  {43, 1000}, {44, 1000}, {45, 1000},
-      {46, 1000}, {50, 0}, {51, 5}, {57, 0}};
+      {11, 1}, {15, 4},    {16, 24},   {17, 6},    {18, 6 + 7 * 5}, {19, 0}, {20, 1}, {21, 1},
+      {22, 1}, {23, 1},    {24, 1},    {27, 7},    {28, 2},         {29, 2}, {30, 6}, {31, 4},
+      {32, 2}, {33, 33},   {34, 0},    {35, 0},    {36, 3},         {37, 0}, {38, 0}, {39, 16 + 24 + 1 + 2 + 4 + 3 * 5},
+      {40, 0}, {43, 1000}, {44, 1000}, {45, 1000}, {46, 1000},      {50, 0}, {51, 5}, {57, 0}};
   for (const auto& [position, value] : wanted) EXPECT_EQ(w[position], value) << "word " << position;
 }
 
@@ -105,7 +111,8 @@ TEST(D3plot, IdsAndPartsAreAscendingAndConnectivityFollows) {
   EXPECT_THAT(std::vector(w.begin() + lines + 6, w.begin() + shells), ::testing::ElementsAre(20, 21, 22, 0, 0, 1));
   EXPECT_THAT(std::vector(w.begin() + shells, w.begin() + shells + 5), ::testing::ElementsAre(15, 16, 17, 18, 5));
   EXPECT_LT(w[numbering], 0);
-  EXPECT_THAT(std::vector(w.begin() + numbering + 5, w.begin() + numbering + 10), ::testing::ElementsAre(24, 1, 2, 4, 0));
+  EXPECT_THAT(std::vector(w.begin() + numbering + 5, w.begin() + numbering + 10),
+              ::testing::ElementsAre(24, 1, 2, 4, 0));
   EXPECT_THAT(std::vector(w.begin() + numbering + 13, w.begin() + numbering + 16), ::testing::ElementsAre(5, 0, 5));
   EXPECT_THAT(std::vector(w.begin() + numbering + 16 + 24, w.begin() + numbering + 16 + 31),
               ::testing::ElementsAre(900, 31, 33, 41, 71, 72, 80));
@@ -162,9 +169,10 @@ TEST(D3plot, VtkSeesEveryNodeElementAndPart) {
   s.results.beam.axial = {42};
   D3plotWriter writer(directory / "d3plot", label, m, s, {});
   auto expected = expected_of(m);
-  expected["cells"] = {{"41", {{"StressInnerSurf", {1, 2, 3, 4, 5, 6}}, {"Thickness", {1.25}}, {"InternalEnergy", {77}}}},
-                       {"900", {{"Stress", {6, 5, 4, 3, 2, 1}}, {"EffPlastStrn", {0.125}}}},
-                       {"33", {{"AxialForce", {42}}}}};
+  expected["cells"] = {
+      {"41", {{"StressInnerSurf", {1, 2, 3, 4, 5, 6}}, {"Thickness", {1.25}}, {"InternalEnergy", {77}}}},
+      {"900", {{"Stress", {6, 5, 4, 3, 2, 1}}, {"EffPlastStrn", {0.125}}}},
+      {"33", {{"AxialForce", {42}}}}};
   for (int i = 0; i < 4; ++i) {
     advance(m, s, 0.1 * i, 0.01);
     writer.write_state(m, s);

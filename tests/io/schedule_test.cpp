@@ -32,7 +32,8 @@ TEST(OutputSchedule, MultiplesOfDtFromZeroToTheEnd) {
 }
 
 TEST(OutputSchedule, FirstCycleAtOrAfterTheTimeAndNoDriftWhenDtDoesNotDivide) {
-  // Steps of 0.03 reach 0.1 at 0.12, 0.2 at 0.21, 0.3 at 0.30 …; the end time is written though no multiple falls on it.
+  // Steps of 0.03 reach 0.1 at 0.12, 0.2 at 0.21, 0.3 at 0.30 …; the end time is written though no multiple falls on
+  // it.
   EXPECT_THAT(written_times({0.1, nullptr, 0.35}, 0.35, 0.03),
               Pointwise(DoubleNear(1e-12), std::vector<double>{0, 0.12, 0.21, 0.3, 0.35}));
 }

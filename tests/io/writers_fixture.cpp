@@ -16,10 +16,12 @@ void add_node(Model& m, UserId id, const Vec3& x) {
   m.nodes.constrained.push_back(0);
 }
 
-NodeIndex node(const Model& m, UserId id) { return m.nodes.index_of.at(id); }
+NodeIndex node(const Model& m, UserId id) {
+  return m.nodes.index_of.at(id);
+}
 
-PartIndex add_part(Model& m, UserId id, const char* title, ElementKind kind, std::variant<RigidMaterial, ElasticMaterial,
-                   SpringMaterial, UnsupportedMaterial> law) {
+PartIndex add_part(Model& m, UserId id, const char* title, ElementKind kind,
+                   std::variant<RigidMaterial, ElasticMaterial, SpringMaterial, UnsupportedMaterial> law) {
   Section s;
   s.kind = kind;
   s.shell.thickness = {1.5, 1.5, 1.5, 1.5};
@@ -51,8 +53,8 @@ void add_joints(Model& m, PartIndex rigid) {
   local.id = 502;
   local.local_body = rigid;
   m.joints = {global, local};
-  for (const JointStiffnessKind kind : {JointStiffnessKind::generalized, JointStiffnessKind::flexion_torsion,
-                                        JointStiffnessKind::translational}) {
+  for (const JointStiffnessKind kind :
+       {JointStiffnessKind::generalized, JointStiffnessKind::flexion_torsion, JointStiffnessKind::translational}) {
     JointStiffness s;
     s.id = 601 + static_cast<UserId>(m.joint_stiffnesses.size());
     s.kind = kind;
@@ -66,10 +68,11 @@ Model make_model() {
   Model m;
   m.title = "writer test";
   for (const auto& [id, x] : std::initializer_list<std::pair<UserId, Vec3>>{
-           {104, {0, 1, 0}}, {101, {0, 0, 0}}, {102, {1, 0, 0}}, {103, {1, 1, 0}}, {105, {2, 0, 0}}, {106, {2, 1, 0}},
-           {1, {5, 0, 0}},   {2, {6, 0, 0}},   {3, {6, 1, 0}},   {4, {5, 1, 0}},   {11, {5, 0, 1}},  {12, {6, 0, 1}},
-           {13, {6, 1, 1}},  {14, {5, 1, 1}},  {201, {8, 0, 0}}, {202, {9, 0, 0}}, {203, {9, 1, 0}}, {204, {8, 1, 0}},
-           {205, {10, 0, 0}}, {301, {12, 0, 0}}, {302, {12, 0, 3}}, {303, {12, 4, 0}}, {401, {20, 0, 0}}, {402, {21, 0, 0}}})
+           {104, {0, 1, 0}},  {101, {0, 0, 0}},  {102, {1, 0, 0}},  {103, {1, 1, 0}},  {105, {2, 0, 0}},
+           {106, {2, 1, 0}},  {1, {5, 0, 0}},    {2, {6, 0, 0}},    {3, {6, 1, 0}},    {4, {5, 1, 0}},
+           {11, {5, 0, 1}},   {12, {6, 0, 1}},   {13, {6, 1, 1}},   {14, {5, 1, 1}},   {201, {8, 0, 0}},
+           {202, {9, 0, 0}},  {203, {9, 1, 0}},  {204, {8, 1, 0}},  {205, {10, 0, 0}}, {301, {12, 0, 0}},
+           {302, {12, 0, 3}}, {303, {12, 4, 0}}, {401, {20, 0, 0}}, {402, {21, 0, 0}}})
     add_node(m, id, x);
   const PartIndex rigid = add_part(m, 10, "rigid plate", ElementKind::shell, RigidMaterial{});
   const PartIndex solid = add_part(m, 20, "block", ElementKind::solid, ElasticMaterial{});
@@ -196,7 +199,8 @@ ScriptResult run_python(const std::string& arguments) {
   std::FILE* pipe = popen(("/usr/bin/python3 " + arguments + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return {-1, "cannot start /usr/bin/python3"};
   std::array<char, 4096> buffer;
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) result.output.append(buffer.data(), n);
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    result.output.append(buffer.data(), n);
   result.exit_code = pclose(pipe);
   return result;
 }
@@ -207,6 +211,8 @@ ScriptResult run_script(const std::string& script, const std::string& arguments)
   return run_python("'" KARDAN_SOURCE_DIR "/tests/io/python/" + script + "' " + arguments);
 }
 
-bool python_has(const std::string& module) { return run_python("-c 'import " + module + "'").exit_code == 0; }
+bool python_has(const std::string& module) {
+  return run_python("-c 'import " + module + "'").exit_code == 0;
+}
 
 }  // namespace kardan::testing

@@ -8,12 +8,12 @@
 
 namespace kardan::testing {
 
-/// Parts: 5 beam, 7 spring, 10 rigid shells, 20 solid, 30 deformable shells (a quadrilateral and a triangle), 99 a nodal
-/// rigid body. User ids are neither dense nor in the deck's order.
+/// Parts: 5 beam, 7 spring, 10 rigid shells, 20 solid, 30 deformable shells (a quadrilateral and a triangle), 99 a
+/// nodal rigid body. User ids are neither dense nor in the deck's order.
 Model make_model();
 
-/// Body 0 (part 10) turns about z with `spin` and moves with `velocity`; body 1 (the nodal rigid body) stands still; the
-/// other nodes move with `velocity` too.
+/// Body 0 (part 10) turns about z with `spin` and moves with `velocity`; body 1 (the nodal rigid body) stands still;
+/// the other nodes move with `velocity` too.
 struct Motion {
   Vec3 velocity{1.0, -2.0, 0.5};
   double spin = 40.0;

@@ -7,7 +7,9 @@ namespace kardan {
 namespace {
 
 /// Two times closer than this are the same cycle. Without a step, rounding of the time itself is the measure.
-double tolerance(double time, double step) { return step > 0 ? 1e-3 * step : 1e-12 * std::abs(time); }
+double tolerance(double time, double step) {
+  return step > 0 ? 1e-3 * step : 1e-12 * std::abs(time);
+}
 
 }  // namespace
 

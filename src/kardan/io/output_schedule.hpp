@@ -6,8 +6,8 @@
 
 namespace kardan {
 
-/// Output times k * dt from t = 0, or steps of a curve's interval (LCUR); always also the end time. A file is written at
-/// the first cycle that has reached its time, once a cycle.
+/// Output times k * dt from t = 0, or steps of a curve's interval (LCUR); always also the end time. A file is written
+/// at the first cycle that has reached its time, once a cycle.
 class OutputSchedule {
  public:
   /// @param interval  curve of the interval against time, which must live as long; nullptr: `dt` throughout (> 0)
@@ -25,9 +25,9 @@ class OutputSchedule {
   double dt_;
   const Curve* interval_;
   double end_;
-  double next_ = 0;         ///< nominal time of the next output
-  double last_ = -1e300;    ///< time of the last output written
-  bool paused_ = false;     ///< the curve was at or below zero; output goes on when it rises
+  double next_ = 0;       ///< nominal time of the next output
+  double last_ = -1e300;  ///< time of the last output written
+  bool paused_ = false;   ///< the curve was at or below zero; output goes on when it rises
 };
 
 }  // namespace kardan

@@ -24,7 +24,9 @@ constexpr const char* separations_name = "jntsep";
 
 using Requests = std::map<OutputFile, OutputRequest>;
 
-bool asks(const OutputRequest& r) { return r.dt > 0 || r.curve != none; }
+bool asks(const OutputRequest& r) {
+  return r.dt > 0 || r.curve != none;
+}
 
 bool known(OutputFile file) {
   const auto& files = Reporter::files();
@@ -59,7 +61,9 @@ void remove_old_results(const std::filesystem::path& directory) {
   }
 }
 
-double step_of(const Clock& clock) { return clock.dt > 0 ? clock.dt : clock.dt_previous; }
+double step_of(const Clock& clock) {
+  return clock.dt > 0 ? clock.dt : clock.dt_previous;
+}
 
 }  // namespace
 
@@ -163,8 +167,12 @@ void ResultsWriter::finish() {
   if (impl_->binout) impl_->binout->flush();
 }
 
-bool ResultsWriter::defaulted() const { return impl_->defaulted; }
+bool ResultsWriter::defaulted() const {
+  return impl_->defaulted;
+}
 
-const std::vector<OutputFile>& ResultsWriter::unwritten() const { return impl_->unwritten; }
+const std::vector<OutputFile>& ResultsWriter::unwritten() const {
+  return impl_->unwritten;
+}
 
 }  // namespace kardan

@@ -18,9 +18,9 @@ struct WriterOptions {
   D3plotOptions d3plot;
 };
 
-/// Writes what model.output.requests asks for (d3plot; glstat, matsum, nodout, rbdout, jntforc, bndout, spcforc, deforc as
-/// ASCII, binout or both), each at its own times: k * dt or by its interval curve, first at t = 0 and last at the end
-/// time. Every write is flushed, so that a killed run leaves readable files. The model must outlive the writer.
+/// Writes what model.output.requests asks for (d3plot; glstat, matsum, nodout, rbdout, jntforc, bndout, spcforc, deforc
+/// as ASCII, binout or both), each at its own times: k * dt or by its interval curve, first at t = 0 and last at the
+/// end time. Every write is flushed, so that a killed run leaves readable files. The model must outlive the writer.
 class ResultsWriter {
  public:
   /// Makes `directory` and removes the result files of an earlier run from it. Writes d3plot's geometry.

@@ -1,5 +1,5 @@
-// What the elements report at t_n for D3PLOT: plain arrays that the element folders fill when an output is due. An array
-// left empty is written as zeros, so a kind of element that reports nothing costs nothing.
+// What the elements report at t_n for D3PLOT: plain arrays that the element folders fill when an output is due. An
+// array left empty is written as zeros, so a kind of element that reports nothing costs nothing.
 #pragma once
 
 #include <array>
@@ -15,18 +15,18 @@ namespace kardan {
 /// Stress components xx, yy, zz, xy, yz, zx in global axes.
 using StressVector = std::array<double, 6>;
 
-/// Shells, by element of the model. `layers` sets of through-thickness data per shell in the order of D3PLOT: mid surface,
-/// inner surface, outer surface, then further integration points from the inside out.
+/// Shells, by element of the model. `layers` sets of through-thickness data per shell in the order of D3PLOT: mid
+/// surface, inner surface, outer surface, then further integration points from the inside out.
 struct ShellResults {
-  int layers = 3;                             ///< MAXINT of D3PLOT; set before the first output, then fixed
-  std::vector<StressVector> stress;           ///< [shell * layers + layer]
-  std::vector<double> plastic_strain;         ///< effective plastic strain, [shell * layers + layer]
-  std::vector<Vec3> bending;                  ///< Mxx, Myy, Mxy per unit width, local axes, [shell]
-  std::vector<std::array<double, 2>> shear;   ///< Qxx, Qyy per unit width, local axes
-  std::vector<Vec3> membrane;                 ///< Nxx, Nyy, Nxy per unit width, local axes
-  std::vector<double> thickness;              ///< length; empty: the section's is written
-  std::vector<double> internal_energy;        ///< energy/volume
-  std::vector<std::uint8_t> alive;            ///< 0 = eroded; empty = no shell can erode
+  int layers = 3;                            ///< MAXINT of D3PLOT; set before the first output, then fixed
+  std::vector<StressVector> stress;          ///< [shell * layers + layer]
+  std::vector<double> plastic_strain;        ///< effective plastic strain, [shell * layers + layer]
+  std::vector<Vec3> bending;                 ///< Mxx, Myy, Mxy per unit width, local axes, [shell]
+  std::vector<std::array<double, 2>> shear;  ///< Qxx, Qyy per unit width, local axes
+  std::vector<Vec3> membrane;                ///< Nxx, Nyy, Nxy per unit width, local axes
+  std::vector<double> thickness;             ///< length; empty: the section's is written
+  std::vector<double> internal_energy;       ///< energy/volume
+  std::vector<std::uint8_t> alive;           ///< 0 = eroded; empty = no shell can erode
 };
 
 /// Solids, by element of the model.
@@ -38,10 +38,10 @@ struct SolidResults {
 
 /// Beams, by element of the model: resultants in the beam's axes r, s, t.
 struct BeamResults {
-  std::vector<double> axial;                  ///< force
-  std::vector<std::array<double, 2>> shear;   ///< forces s, t
-  std::vector<std::array<double, 2>> bending; ///< moments s, t
-  std::vector<double> torsion;                ///< moment
+  std::vector<double> axial;                   ///< force
+  std::vector<std::array<double, 2>> shear;    ///< forces s, t
+  std::vector<std::array<double, 2>> bending;  ///< moments s, t
+  std::vector<double> torsion;                 ///< moment
   std::vector<std::uint8_t> alive;
 };
 

@@ -26,19 +26,29 @@ bool has_legend(OutputFile file) {
 
 }  // namespace
 
-AsciiWriter::AsciiWriter(std::filesystem::path path, RunLabel label) : file_(std::move(path)), label_(std::move(label)) {}
+AsciiWriter::AsciiWriter(std::filesystem::path path, RunLabel label)
+    : file_(std::move(path)), label_(std::move(label)) {}
 
 std::string AsciiWriter::text_of(const Snapshot& s) {
   switch (s.file) {
-    case OutputFile::glstat: return glstat_text(s);
-    case OutputFile::matsum: return matsum_text(s);
-    case OutputFile::nodout: return nodout_text(s);
-    case OutputFile::rbdout: return rbdout_text(s);
-    case OutputFile::jntforc: return jntforc_text(s);
-    case OutputFile::bndout: return bndout_text(s);
-    case OutputFile::spcforc: return spcforc_text(s);
-    case OutputFile::deforc: return deforc_text(s);
-    default: break;
+    case OutputFile::glstat:
+      return glstat_text(s);
+    case OutputFile::matsum:
+      return matsum_text(s);
+    case OutputFile::nodout:
+      return nodout_text(s);
+    case OutputFile::rbdout:
+      return rbdout_text(s);
+    case OutputFile::jntforc:
+      return jntforc_text(s);
+    case OutputFile::bndout:
+      return bndout_text(s);
+    case OutputFile::spcforc:
+      return spcforc_text(s);
+    case OutputFile::deforc:
+      return deforc_text(s);
+    default:
+      break;
   }
   KARDAN_ASSERT(!"an ASCII layout for this file");
   return {};
@@ -55,6 +65,8 @@ void AsciiWriter::append(const Snapshot& s, const std::string& text) {
   file_.flush();
 }
 
-void AsciiWriter::write_separations(const Snapshot& jntforc) { append(jntforc, jntsep_text(jntforc)); }
+void AsciiWriter::write_separations(const Snapshot& jntforc) {
+  append(jntforc, jntsep_text(jntforc));
+}
 
 }  // namespace kardan

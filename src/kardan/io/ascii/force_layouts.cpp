@@ -27,38 +27,55 @@ void put_lines(std::string& text, const Folder& f, const std::vector<Line>& line
 }
 
 const std::vector<Line>& stiffness_lines(std::string_view path) {
-  static const std::vector<Line> generalized = {
-      {"phi (degrees)", "phi_degrees"}, {"d(phi)/dt (degrees)", "d(phi)_dt"}, {"theta (degrees)", "theta_degrees"},
-      {"d(theta)/dt (degrees)", "d(theta)_dt"}, {"psi (degrees)", "psi_degrees"}, {"d(psi)/dt (degrees)", "d(psi)_dt"},
-      {"phi moment-stiffness", "phi_moment_stiffness"}, {"phi moment-damping", "phi_moment_damping"},
-      {"phi moment-total", "phi_moment_total"}, {"theta-moment-stiffness", "theta_moment_stiffness"},
-      {"theta-moment-damping", "theta_moment_damping"}, {"theta-moment-total", "theta_moment_total"},
-      {"psi-moment-stiffness", "psi_moment_stiffness"}, {"psi-moment-damping", "psi_moment_damping"},
-      {"psi-moment-total", "psi_moment_total"}, {"joint energy", "joint_energy"}};
-  static const std::vector<Line> flexion_torsion = {
-      {"alpha (degrees)", "alpha_degrees"}, {"d(alpha)/dt (degrees)", "d(alpha)_dt"}, {"gamma (degrees)", "gamma_degrees"},
-      {"d(gamma)/dt (degrees)", "d(gamma)_dt"}, {"beta (degrees)", "beta_degrees"}, {"d(beta)/dt (degrees)", "d(beta)_dt"},
-      {"alpha-moment-stiffness", "alpha_moment_stiffness"}, {"alpha-moment-damping", "alpha_moment_damping"},
-      {"alpha-moment-total", "alpha_moment_total"}, {"gamma scale factor", "gamma_scale_factor"},
-      {"beta-moment-stiffness", "beta_moment_stiffness"}, {"beta-moment-damping", "beta_moment_damping"},
-      {"beta-moment-total", "beta_moment_total"}, {"joint energy", "joint_energy"}};
+  static const std::vector<Line> generalized = {{"phi (degrees)", "phi_degrees"},
+                                                {"d(phi)/dt (degrees)", "d(phi)_dt"},
+                                                {"theta (degrees)", "theta_degrees"},
+                                                {"d(theta)/dt (degrees)", "d(theta)_dt"},
+                                                {"psi (degrees)", "psi_degrees"},
+                                                {"d(psi)/dt (degrees)", "d(psi)_dt"},
+                                                {"phi moment-stiffness", "phi_moment_stiffness"},
+                                                {"phi moment-damping", "phi_moment_damping"},
+                                                {"phi moment-total", "phi_moment_total"},
+                                                {"theta-moment-stiffness", "theta_moment_stiffness"},
+                                                {"theta-moment-damping", "theta_moment_damping"},
+                                                {"theta-moment-total", "theta_moment_total"},
+                                                {"psi-moment-stiffness", "psi_moment_stiffness"},
+                                                {"psi-moment-damping", "psi_moment_damping"},
+                                                {"psi-moment-total", "psi_moment_total"},
+                                                {"joint energy", "joint_energy"}};
+  static const std::vector<Line> flexion_torsion = {{"alpha (degrees)", "alpha_degrees"},
+                                                    {"d(alpha)/dt (degrees)", "d(alpha)_dt"},
+                                                    {"gamma (degrees)", "gamma_degrees"},
+                                                    {"d(gamma)/dt (degrees)", "d(gamma)_dt"},
+                                                    {"beta (degrees)", "beta_degrees"},
+                                                    {"d(beta)/dt (degrees)", "d(beta)_dt"},
+                                                    {"alpha-moment-stiffness", "alpha_moment_stiffness"},
+                                                    {"alpha-moment-damping", "alpha_moment_damping"},
+                                                    {"alpha-moment-total", "alpha_moment_total"},
+                                                    {"gamma scale factor", "gamma_scale_factor"},
+                                                    {"beta-moment-stiffness", "beta_moment_stiffness"},
+                                                    {"beta-moment-damping", "beta_moment_damping"},
+                                                    {"beta-moment-total", "beta_moment_total"},
+                                                    {"joint energy", "joint_energy"}};
   static const std::vector<Line> translational = {
-      {"x-displacement", "x_displacement"}, {"d(dispx)/dt", "d(dispx)_dt"}, {"y-displacement", "y_displacement"},
-      {"d(dispy)/dt", "d(dispy)_dt"}, {"z-displacement", "z_displacement"}, {"d(dispz)/dt", "d(dispz)_dt"},
+      {"x-displacement", "x_displacement"},       {"d(dispx)/dt", "d(dispx)_dt"},
+      {"y-displacement", "y_displacement"},       {"d(dispy)/dt", "d(dispy)_dt"},
+      {"z-displacement", "z_displacement"},       {"d(dispz)/dt", "d(dispz)_dt"},
       {"force-x-stiffness", "x_force_stiffness"}, {"force-x-damping", "x_force_damping"},
-      {"force-x-total", "x_force_total"}, {"force-y-stiffness", "y_force_stiffness"},
-      {"force-y-damping", "y_force_damping"}, {"force-y-total", "y_force_total"},
+      {"force-x-total", "x_force_total"},         {"force-y-stiffness", "y_force_stiffness"},
+      {"force-y-damping", "y_force_damping"},     {"force-y-total", "y_force_total"},
       {"force-z-stiffness", "z_force_stiffness"}, {"force-z-damping", "z_force_damping"},
-      {"force-z-total", "z_force_total"}, {"joint energy", "joint_energy"}};
+      {"force-z-total", "z_force_total"},         {"joint energy", "joint_energy"}};
   return path == "/jntforc/type0" ? generalized : path == "/jntforc/type1" ? flexion_torsion : translational;
 }
 
 void put_joints(std::string& text, const Folder& f) {
-  static const std::vector<Line> global = {{"x-force", "x_force"},   {"y-force", "y_force"},   {"z-force", "z_force"},
-                                           {"x-moment", "x_moment"}, {"y-moment", "y_moment"}, {"z-moment", "z_moment"}};
-  static const std::vector<Line> local = {
-      {"x-force  (local) ", "x_force"},  {"y-force  (local) ", "y_force"},  {"z-force  (local) ", "z_force"},
-      {"x-moment (local) ", "x_moment"}, {"y-moment (local) ", "y_moment"}, {"z-moment (local) ", "z_moment"}};
+  static const std::vector<Line> global = {{"x-force", "x_force"},   {"y-force", "y_force"},
+                                           {"z-force", "z_force"},   {"x-moment", "x_moment"},
+                                           {"y-moment", "y_moment"}, {"z-moment", "z_moment"}};
+  static const std::vector<Line> local = {{"x-force  (local) ", "x_force"},  {"y-force  (local) ", "y_force"},
+                                          {"z-force  (local) ", "z_force"},  {"x-moment (local) ", "x_moment"},
+                                          {"y-moment (local) ", "y_moment"}, {"z-moment (local) ", "z_moment"}};
   static const std::vector<Line> rest = {
       {"resultant force", "resultant_force"}, {"resultant moment", "resultant_moment"}, {"energy", "energy"}};
   const auto& ids = f.meta("ids");
@@ -90,7 +107,8 @@ std::string jntforc_text(const Snapshot& s) {
 
 std::string jntsep_text(const Snapshot& s) {
   std::string text;
-  put(text, "\n\n time.........................{:14.5E}\n  joint ID      separation   angular separation (degrees)\n", s.time);
+  put(text, "\n\n time.........................{:14.5E}\n  joint ID      separation   angular separation (degrees)\n",
+      s.time);
   for (const Folder& f : s.folders) {
     if (f.path != "/jntforc/joints") continue;
     const auto& ids = f.meta("ids");
@@ -113,8 +131,8 @@ std::string bndout_text(const Snapshot& s) {
           bodies ? "mat#" : " nd#", ids[i], f["x_force"][i], f["y_force"][i], f["z_force"][i], f["energy"][i],
           f.meta("setid")[i]);
       if (bodies)
-        put(text, "             xmoment={:13.4E}  ymoment={:13.4E} zmoment={:13.4E}\n", f["xmoment"][i], f["ymoment"][i],
-            f["zmoment"][i]);
+        put(text, "             xmoment={:13.4E}  ymoment={:13.4E} zmoment={:13.4E}\n", f["xmoment"][i],
+            f["ymoment"][i], f["zmoment"][i]);
     }
     static constexpr std::array<const char*, 4> names = {"x_total", "y_total", "z_total", "etotal"};
     for (std::size_t k = 0; k < 4; ++k) total[k] += f[names[k]][0];

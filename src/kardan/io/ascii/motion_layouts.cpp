@@ -16,7 +16,8 @@ void put(std::string& text, fmt::format_string<Args...> format, Args&&... args) 
 }
 
 /// "label" and the columns' values of entry i, 12.4E each.
-void put_row(std::string& text, const char* label, const Folder& f, std::initializer_list<const char*> names, std::size_t i) {
+void put_row(std::string& text, const char* label, const Folder& f, std::initializer_list<const char*> names,
+             std::size_t i) {
   text += label;
   for (const char* name : names) put(text, "{:12.4E}", f[name][i]);
   text += '\n';
@@ -42,8 +43,10 @@ std::string glstat_text(const Snapshot& s) {
   std::vector<std::string> types;
   for (const char c : f.text_metadata.at(0).second + ",") {
     if (types.empty()) types.emplace_back();
-    if (c == ',') types.emplace_back();
-    else types.back() += c;
+    if (c == ',')
+      types.emplace_back();
+    else
+      types.back() += c;
   }
   const std::int64_t type = integer(1);
   put(text, "\n\n dt of cycle{:8d} is controlled by {}", integer(0), types.at(static_cast<std::size_t>(type - 1)));
@@ -73,7 +76,8 @@ std::string glstat_text(const Snapshot& s) {
        {"global_z_velocity", " global z velocity.............."}}};
   for (const RealColumn& c : f.columns)
     for (const auto& [name, label] : lines)
-      if (c.name == name) put(text, "{}{:14.5E}{}\n", label, c.values[0], c.name == "stonewall_energy" ? " wall# 1" : "");
+      if (c.name == name)
+        put(text, "{}{:14.5E}{}\n", label, c.values[0], c.name == "stonewall_energy" ? " wall# 1" : "");
   put(text, " number of nodes................{:14d}\n", integer(4));
   put(text, " number of elements.............{:14d}\n", integer(5));
   put(text, " time per zone cycle.(nanosec)..{:14d}\n", integer(6));
@@ -107,14 +111,17 @@ std::string nodout_text(const Snapshot& s) {
         s.cycle, s.time);
   };
   head();
-  text += "\n nodal point  x-disp     y-disp      z-disp      x-vel       y-vel       z-vel      x-accl      y-accl      "
-          "z-accl      x-coor      y-coor      z-coor\n";
-  put_node_lines(text, f,
-                 {"x_displacement", "y_displacement", "z_displacement", "x_velocity", "y_velocity", "z_velocity",
-                  "x_acceleration", "y_acceleration", "z_acceleration", "x_coordinate", "y_coordinate", "z_coordinate"});
+  text +=
+      "\n nodal point  x-disp     y-disp      z-disp      x-vel       y-vel       z-vel      x-accl      y-accl      "
+      "z-accl      x-coor      y-coor      z-coor\n";
+  put_node_lines(
+      text, f,
+      {"x_displacement", "y_displacement", "z_displacement", "x_velocity", "y_velocity", "z_velocity", "x_acceleration",
+       "y_acceleration", "z_acceleration", "x_coordinate", "y_coordinate", "z_coordinate"});
   head();
-  text += "\n nodal point  x-rot      y-rot       z-rot       x-rot vel   y-rot vel   z-rot vel   x-rot acc   y-rot acc   "
-          "z-rot acc\n";
+  text +=
+      "\n nodal point  x-rot      y-rot       z-rot       x-rot vel   y-rot vel   z-rot vel   x-rot acc   y-rot acc   "
+      "z-rot acc\n";
   put_node_lines(text, f,
                  {"rx_displacement", "ry_displacement", "rz_displacement", "rx_velocity", "ry_velocity", "rz_velocity",
                   "rx_acceleration", "ry_acceleration", "rz_acceleration"});
@@ -128,8 +135,10 @@ std::string rbdout_text(const Snapshot& s) {
   std::string text;
   put(text, "1\n\n  r i g i d   b o d y   m o t i o n   a t  cycle={:8d}    time={:15.6E}\n", s.cycle, s.time);
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (i < rigid_parts) put(text, "\n rigid body{:8d}\n", ids[i]);
-    else put(text, " nodal rigid body{:8d}\n", ids[i]);
+    if (i < rigid_parts)
+      put(text, "\n rigid body{:8d}\n", ids[i]);
+    else
+      put(text, " nodal rigid body{:8d}\n", ids[i]);
     text += "   global             x           y           z          x-rot       y-rot       z-rot\n";
     put_row(text, "   coordinates:  ", f, {"global_x", "global_y", "global_z"}, i);
     put_row(text, " displacements:  ", f,
@@ -138,17 +147,23 @@ std::string rbdout_text(const Snapshot& s) {
             {"global_vx", "global_vy", "global_vz", "global_rvx", "global_rvy", "global_rvz"}, i);
     put_row(text, " accelerations:  ", f,
             {"global_ax", "global_ay", "global_az", "global_rax", "global_ray", "global_raz"}, i);
-    text += "\nprincipal or user defined local coordinate direction vectors\n                     a           b           c\n";
+    text +=
+        "\nprincipal or user defined local coordinate direction vectors\n                     a           b           "
+        "c\n";
     for (int row = 1; row <= 3; ++row) {
       put(text, "     row {}", row);
       for (int column = 1; column <= 3; ++column) put(text, "{:15.4E}", f[fmt::format("dircos_{}{}", row, column)][i]);
       text += '\n';
     }
-    text += "\n output in principal or user defined local coordinate directions\n"
-            "                      a           b           c          a-rot       b-rot       c-rot\n";
-    put_row(text, " displacements:  ", f, {"local_dx", "local_dy", "local_dz", "local_rdx", "local_rdy", "local_rdz"}, i);
-    put_row(text, "    velocities:  ", f, {"local_vx", "local_vy", "local_vz", "local_rvx", "local_rvy", "local_rvz"}, i);
-    put_row(text, " accelerations:  ", f, {"local_ax", "local_ay", "local_az", "local_rax", "local_ray", "local_raz"}, i);
+    text +=
+        "\n output in principal or user defined local coordinate directions\n"
+        "                      a           b           c          a-rot       b-rot       c-rot\n";
+    put_row(text, " displacements:  ", f, {"local_dx", "local_dy", "local_dz", "local_rdx", "local_rdy", "local_rdz"},
+            i);
+    put_row(text, "    velocities:  ", f, {"local_vx", "local_vy", "local_vz", "local_rvx", "local_rvy", "local_rvz"},
+            i);
+    put_row(text, " accelerations:  ", f, {"local_ax", "local_ay", "local_az", "local_rax", "local_ray", "local_raz"},
+            i);
   }
   return text;
 }

@@ -16,7 +16,14 @@ static_assert(std::endian::native == std::endian::little, "the writers put nativ
 constexpr std::int64_t length_size = 8, command_size = 1, type_size = 1, offset_size = 8, name_length_size = 1;
 constexpr std::int64_t head_size = length_size + command_size;
 
-enum Command : std::uint8_t { cd_command = 2, data = 3, variable = 4, begin_table = 5, end_table = 6, table_offset = 7 };
+enum Command : std::uint8_t {
+  cd_command = 2,
+  data = 3,
+  variable = 4,
+  begin_table = 5,
+  end_table = 6,
+  table_offset = 7
+};
 
 }  // namespace
 

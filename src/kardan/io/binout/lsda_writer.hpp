@@ -13,9 +13,10 @@
 
 namespace kardan {
 
-/// Layout (LSTC's LSDA, as its published readers read it): an 8-byte file header; then records, each a length of 8 bytes
-/// that counts the whole record, a command of 1 byte, and a body. Data records hold type, name and values; a symbol table
-/// lists the data records of a stretch of the file and ends with the offset of the next table. Little endian.
+/// Layout (LSTC's LSDA, as its published readers read it): an 8-byte file header; then records, each a length of 8
+/// bytes that counts the whole record, a command of 1 byte, and a body. Data records hold type, name and values; a
+/// symbol table lists the data records of a stretch of the file and ends with the offset of the next table. Little
+/// endian.
 class LsdaWriter {
  public:
   explicit LsdaWriter(std::filesystem::path path);

@@ -12,7 +12,9 @@ namespace {
 std::vector<Index> ascending(const std::vector<UserId>& ids) {
   std::vector<Index> order(ids.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto before = [&](Index a, Index b) { return ids[static_cast<std::size_t>(a)] < ids[static_cast<std::size_t>(b)]; };
+  const auto before = [&](Index a, Index b) {
+    return ids[static_cast<std::size_t>(a)] < ids[static_cast<std::size_t>(b)];
+  };
   if (!std::is_sorted(order.begin(), order.end(), before)) std::stable_sort(order.begin(), order.end(), before);
   return order;
 }
@@ -27,10 +29,13 @@ void mark(const Block& block, std::uint8_t bit, std::vector<std::uint8_t>& used)
 std::uint8_t kind_of_section(const Model& model, const Part& part) {
   if (part.section == none) return by_shell;
   switch (model.sections[static_cast<std::size_t>(part.section)].kind) {
-    case ElementKind::solid: return by_solid;
+    case ElementKind::solid:
+      return by_solid;
     case ElementKind::beam:
-    case ElementKind::discrete: return by_line;
-    case ElementKind::shell: break;
+    case ElementKind::discrete:
+      return by_line;
+    case ElementKind::shell:
+      break;
   }
   return by_shell;
 }
@@ -70,9 +75,12 @@ D3plotLayout::D3plotLayout(const Model& model)
     const auto p = static_cast<std::size_t>(parts[i]);
     part_number[p] = static_cast<std::int32_t>(i + 1);
     const std::uint8_t kinds = used[p] != 0 ? used[p] : kind_of_section(model, model.parts[p]);
-    if (kinds & by_solid) ++solid_parts;
-    else if (kinds & by_shell) ++shell_parts;
-    else ++line_parts;
+    if (kinds & by_solid)
+      ++solid_parts;
+    else if (kinds & by_shell)
+      ++shell_parts;
+    else
+      ++line_parts;
   }
   for (const Index e : shells) {
     rigid_shell.push_back(model.rigid_part(model.shells.part[static_cast<std::size_t>(e)]));

@@ -19,7 +19,8 @@ struct D3plotLayout {
   std::vector<Line> lines;
   std::vector<std::int32_t> node_number;  ///< 1-based position of each node of the model
   std::vector<std::int32_t> part_number;  ///< 1-based position of each part; 0: not in the file (nodal rigid bodies)
-  std::int64_t solid_parts = 0, shell_parts = 0, line_parts = 0;  ///< NUMMAT8, NUMMAT4, NUMMAT2; they add up to all parts
+  std::int64_t solid_parts = 0, shell_parts = 0,
+               line_parts = 0;            ///< NUMMAT8, NUMMAT4, NUMMAT2; they add up to all parts
   std::vector<std::uint8_t> rigid_shell;  ///< by entry of `shells`
   std::int64_t rigid_shells = 0;
 

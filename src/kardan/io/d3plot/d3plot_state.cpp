@@ -13,7 +13,9 @@ T at_or_zero(const std::vector<T>& v, std::size_t i) {
   return i < v.size() ? v[i] : T{};
 }
 
-double mean(const std::array<double, 4>& t) { return 0.25 * (t[0] + t[1] + t[2] + t[3]); }
+double mean(const std::array<double, 4>& t) {
+  return 0.25 * (t[0] + t[1] + t[2] + t[3]);
+}
 
 double initial_thickness(const Model& model, std::size_t shell) {
   const auto own = model.shells.thickness.find(static_cast<Index>(shell));
@@ -89,13 +91,17 @@ void D3plotWriter::deletion_words(const Model& model, const State& state, WordBu
     const bool deleted = e < alive.size() && alive[e] == 0;
     out.real(deleted ? 0.0 : layout_.part_number[static_cast<std::size_t>(part)]);
   };
-  for (const Index e : layout_.solids) put(state.results.solid.alive, e, model.solids.part[static_cast<std::size_t>(e)]);
-  for (const Index e : layout_.shells) put(state.results.shell.alive, e, model.shells.part[static_cast<std::size_t>(e)]);
+  for (const Index e : layout_.solids)
+    put(state.results.solid.alive, e, model.solids.part[static_cast<std::size_t>(e)]);
+  for (const Index e : layout_.shells)
+    put(state.results.shell.alive, e, model.shells.part[static_cast<std::size_t>(e)]);
   static const std::vector<std::uint8_t> always;
   for (const D3plotLayout::Line& line : layout_.lines) {
     const auto e = static_cast<std::size_t>(line.element);
-    if (line.discrete) put(always, line.element, model.discretes.part[e]);
-    else put(state.results.beam.alive, line.element, model.beams.part[e]);
+    if (line.discrete)
+      put(always, line.element, model.discretes.part[e]);
+    else
+      put(state.results.beam.alive, line.element, model.beams.part[e]);
   }
 }
 

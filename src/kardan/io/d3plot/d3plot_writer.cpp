@@ -27,8 +27,8 @@ template <class Ids>
 void require_fit(const Ids& ids, const char* what) {
   for (const UserId id : ids)
     if (id > std::numeric_limits<std::int32_t>::max())
-      throw RunError(fmt::format("{} {} does not fit in the 32-bit words of d3plot: renumber it or ask for 64-bit words",
-                                 what, id));
+      throw RunError(fmt::format(
+          "{} {} does not fit in the 32-bit words of d3plot: renumber it or ask for 64-bit words", what, id));
 }
 
 }  // namespace
@@ -73,11 +73,11 @@ void D3plotWriter::control_words(const RunLabel& label, WordBuffer& out) const {
   const std::int64_t numbering =
       16 + count(layout_.nodes) + count(layout_.solids) + count(layout_.lines) + count(layout_.shells) + 3 * parts;
   out.text(label.title, 10 * word);
-  out.integer(0);         // 10 run time stamp: none, so that equal runs give equal files
-  out.integer(1);         // 11 file type: d3plot
-  out.integer(0);         // 12 source version
-  out.text("60", word);   // 13 release whose layout this is
-  out.real(971.0);        // 14 version: tells readers the floating-point format
+  out.integer(0);                              // 10 run time stamp: none, so that equal runs give equal files
+  out.integer(1);                              // 11 file type: d3plot
+  out.integer(0);                              // 12 source version
+  out.text("60", word);                        // 13 release whose layout this is
+  out.real(971.0);                             // 14 version: tells readers the floating-point format
   out.integer(words_.material_types ? 5 : 4);  // 15 NDIM: three dimensions, connectivity unpacked
   out.integer(count(layout_.nodes));           // 16 NUMNP
   out.integer(6);                              // 17 ICODE
@@ -96,9 +96,9 @@ void D3plotWriter::control_words(const RunLabel& label, WordBuffer& out) const {
   out.integer(words_.shell_words());           // 33 NV2D
   out.zeros(2);                                // 34-35 NEIPH, NEIPS
   out.integer(words_.deletion ? -(10000 + words_.layers) : words_.layers);  // 36 MAXINT and MDLOPT
-  out.zeros(2);                                   // 37-38 NMSPH, NGPSPH
-  out.integer(numbering);                         // 39 NARBS
-  out.zeros(3);                                   // 40-42 NELT, NUMMATT, NV3DT
+  out.zeros(2);                                                             // 37-38 NMSPH, NGPSPH
+  out.integer(numbering);                                                   // 39 NARBS
+  out.zeros(3);                                                             // 40-42 NELT, NUMMATT, NV3DT
   for (int i = 0; i < 4; ++i) out.integer(1000);  // 43-46 IOSHL: stress, plastic strain, resultants, thickness …
   out.zeros(4);                                   // 47-50 IALEMAT, NCFDV1, NCFDV2, NADAPT
   out.integer(parts);                             // 51 NMMAT

@@ -17,8 +17,8 @@ struct D3plotOptions {
   int word_bytes = 4;  ///< 4 or 8
   /// A state that would make its file longer starts the next one. LS-DYNA's default: 70 x 262144 words.
   std::int64_t file_words = 70 * 262144;
-  /// NDIM = 5: the material type section tells readers which parts are rigid, and rigid shells have no state data. Off by
-  /// default, because VTK's vtkLSDynaReader miscounts such states.
+  /// NDIM = 5: the material type section tells readers which parts are rigid, and rigid shells have no state data. Off
+  /// by default, because VTK's vtkLSDynaReader miscounts such states.
   bool material_types = false;
 };
 

@@ -23,7 +23,8 @@ Mat3 initial_axes(const Model& model, const BodyInfo& info) {
       if (n.id == info.id && n.frame != none) return frame(n.frame);
   } else if (info.part != none) {
     const Index m = model.parts[static_cast<std::size_t>(info.part)].material;
-    const auto* rigid = m == none ? nullptr : std::get_if<RigidMaterial>(&model.materials[static_cast<std::size_t>(m)].law);
+    const auto* rigid =
+        m == none ? nullptr : std::get_if<RigidMaterial>(&model.materials[static_cast<std::size_t>(m)].law);
     Mat3 axes;
     if (rigid && rigid->output_frame != none) return frame(rigid->output_frame);
     if (rigid && axes_of_vectors(rigid->a, rigid->v, axes)) return axes;

@@ -9,12 +9,18 @@ namespace {
 /// Position (from 1) of the owner's kind in GLSTAT's list of element types; 14 is printed without a number.
 std::int64_t type_number(TimeStepOwner::Kind kind) {
   switch (kind) {
-    case TimeStepOwner::Kind::discrete: return 1;
-    case TimeStepOwner::Kind::solid: return 2;
-    case TimeStepOwner::Kind::beam: return 3;
-    case TimeStepOwner::Kind::shell: return 4;
-    case TimeStepOwner::Kind::joint: return 6;
-    case TimeStepOwner::Kind::prescribed: break;
+    case TimeStepOwner::Kind::discrete:
+      return 1;
+    case TimeStepOwner::Kind::solid:
+      return 2;
+    case TimeStepOwner::Kind::beam:
+      return 3;
+    case TimeStepOwner::Kind::shell:
+      return 4;
+    case TimeStepOwner::Kind::joint:
+      return 6;
+    case TimeStepOwner::Kind::prescribed:
+      break;
   }
   return 14;
 }

@@ -48,7 +48,7 @@ Folder joints_folder(const Model& model, const State& state, const BodyFrames& f
 struct StiffnessLayout {
   const char* path;
   std::vector<JointStiffnessKind> kinds;
-  double unit;  ///< factor from the report's coordinates and rates
+  double unit;                                      ///< factor from the report's coordinates and rates
   std::array<std::array<const char*, 5>, 3> names;  ///< empty = not written
 };
 
@@ -83,15 +83,21 @@ Folder stiffness_folder(const Model& model, const State& state, const StiffnessL
 const std::vector<StiffnessLayout>& stiffness_layouts() {
   using K = JointStiffnessKind;
   static const std::vector<StiffnessLayout> all = {
-      {"/jntforc/type0", {K::generalized}, degrees,
+      {"/jntforc/type0",
+       {K::generalized},
+       degrees,
        {{{"phi_degrees", "d(phi)_dt", "phi_moment_stiffness", "phi_moment_damping", "phi_moment_total"},
          {"theta_degrees", "d(theta)_dt", "theta_moment_stiffness", "theta_moment_damping", "theta_moment_total"},
          {"psi_degrees", "d(psi)_dt", "psi_moment_stiffness", "psi_moment_damping", "psi_moment_total"}}}},
-      {"/jntforc/type1", {K::flexion_torsion}, degrees,
+      {"/jntforc/type1",
+       {K::flexion_torsion},
+       degrees,
        {{{"alpha_degrees", "d(alpha)_dt", "alpha_moment_stiffness", "alpha_moment_damping", "alpha_moment_total"},
          {"gamma_degrees", "d(gamma)_dt", "gamma_scale_factor", "", ""},
          {"beta_degrees", "d(beta)_dt", "beta_moment_stiffness", "beta_moment_damping", "beta_moment_total"}}}},
-      {"/jntforc/type2", {K::translational, K::cylindrical}, 1.0,
+      {"/jntforc/type2",
+       {K::translational, K::cylindrical},
+       1.0,
        {{{"x_displacement", "d(dispx)_dt", "x_force_stiffness", "x_force_damping", "x_force_total"},
          {"y_displacement", "d(dispy)_dt", "y_force_stiffness", "y_force_damping", "y_force_total"},
          {"z_displacement", "d(dispz)_dt", "z_force_stiffness", "z_force_damping", "z_force_total"}}}}};

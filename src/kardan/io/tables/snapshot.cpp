@@ -13,7 +13,8 @@ const std::vector<double>& Folder::operator[](std::string_view name) const {
 }
 
 const std::vector<std::int64_t>& Folder::meta(std::string_view name) const {
-  const auto hit = std::find_if(metadata.begin(), metadata.end(), [&](const IntegerColumn& c) { return c.name == name; });
+  const auto hit =
+      std::find_if(metadata.begin(), metadata.end(), [&](const IntegerColumn& c) { return c.name == name; });
   KARDAN_ASSERT(hit != metadata.end());
   return hit->values;
 }

@@ -24,13 +24,13 @@ struct IntegerColumn {
 };
 
 struct Folder {
-  std::string path;                        ///< e.g. "/jntforc/joints"
+  std::string path;  ///< e.g. "/jntforc/joints"
   std::vector<std::pair<std::string, std::string>> text_metadata;
-  std::vector<IntegerColumn> metadata;     ///< what does not change with time: ids …
-  std::vector<UserId> legend_ids;          ///< entries with a title
+  std::vector<IntegerColumn> metadata;  ///< what does not change with time: ids …
+  std::vector<UserId> legend_ids;       ///< entries with a title
   std::vector<std::string> legend;
-  std::vector<IntegerColumn> integers;     ///< at this time
-  std::vector<RealColumn> columns;         ///< at this time; one value for each id, or one in all
+  std::vector<IntegerColumn> integers;  ///< at this time
+  std::vector<RealColumn> columns;      ///< at this time; one value for each id, or one in all
 
   /// The column or metadata of that name, which must be there.
   const std::vector<double>& operator[](std::string_view name) const;

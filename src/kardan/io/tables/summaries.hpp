@@ -10,9 +10,9 @@ namespace kardan {
 
 struct PartSummary {
   double internal = 0, kinetic = 0, hourglass = 0;
-  double mass = 0;     ///< of a merged rigid body: all of it with the lead part, none with the others
+  double mass = 0;  ///< of a merged rigid body: all of it with the lead part, none with the others
   Vec3 momentum;
-  Vec3 velocity;       ///< of the rigid body; of a deformable part: momentum / mass
+  Vec3 velocity;  ///< of the rigid body; of a deformable part: momentum / mass
 };
 
 /// One entry a part of the model. Deformable parts have mass and momentum where State::energy has them.
@@ -22,6 +22,8 @@ std::vector<PartSummary> part_summaries(const Model& model, const State& state);
 Vec3 global_velocity(const State& state);
 
 /// The part is meshed or at least a *PART of the deck; false for those that stand for a nodal rigid body.
-inline bool listed(const Part& part) { return part.nodal_rigid_body == none; }
+inline bool listed(const Part& part) {
+  return part.nodal_rigid_body == none;
+}
 
 }  // namespace kardan
