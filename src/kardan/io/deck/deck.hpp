@@ -200,7 +200,8 @@ class Block {
   Diagnostics* diagnostics_ = nullptr;
 };
 
-/// A deck with its includes: the blocks in reading order. Only keywords of status `honoured` are in it.
+/// A deck with its includes: the blocks in reading order: the honoured keywords, and materials that are not
+/// built (for their density).
 struct Deck {
   std::vector<Block> blocks;
   std::vector<std::string> files;  ///< every file read, the main one first

@@ -149,7 +149,10 @@ void DeckReader::handle(FileState& state, Block&& block, std::string_view rest) 
       diagnostics_.notice(fmt::format("read and not needed: {}", match.info->note), block.as_written_, block.where);
     return;
   }
-  if (match.info->status == KeywordStatus::stops && stopped(block)) return;
+  // A material whose law is not built is handed out all the same: its density counts, and the model builder refuses the
+  // deformable parts made of it.
+  const bool weighed = block.keyword.starts_with("MAT_") && match.info->find_card("card0") != nullptr;
+  if (match.info->status == KeywordStatus::stops && !weighed && stopped(block)) return;
   if (!match.bad_option.empty()) {
     diagnostics_.error(fmt::format("*{} has no option {} here", block.keyword, match.bad_option),
                        "docs/keywords.md lists the options of each keyword", block.as_written_, block.where);

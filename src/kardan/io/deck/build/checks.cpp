@@ -64,7 +64,8 @@ void check_part(Builder& b, PartIndex p, const PartUse& use) {
   if (part.material == none) return;
   const Material& material = b.model.materials[at(part.material)];
   const bool spring = std::holds_alternative<SpringMaterial>(material.law);
-  if (spring != (use.elements[3] != 0) || (spring && use.total() != use.elements[3])) {
+  const bool unknown = std::holds_alternative<UnsupportedMaterial>(material.law);
+  if (!unknown && (spring != (use.elements[3] != 0) || (spring && use.total() != use.elements[3]))) {
     error("MID", name + (spring ? " has a spring or damper material but elements that are not discrete"
                                 : " has discrete elements but a material that is no spring or damper"),
           spring ? "use a material for solids, shells or beams" : "use *MAT_SPRING or *MAT_DAMPER");

@@ -1,7 +1,10 @@
 // *DEFINE: curves, tables, coordinate systems, vectors, boxes.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <tuple>
+#include <utility>
 
 #include "kardan/io/deck/build/builder.hpp"
 #include "kardan/io/deck/build/curve_function.hpp"
@@ -23,6 +26,38 @@ void check_curve_head(Builder& b, const Block& block, const Card& card) {
     b.unsupported(block, "unit factors of *INCLUDE_TRANSFORM on a curve are not available: the units of its values depend "
                   "on who uses it", "move the curve to the main deck in its units");
   }
+}
+
+/// Makes the abscissae ascend strictly: sorts the points where they do not ascend, drops repeated points, and moves the
+/// second point of a jump by 1e-9 of the range. Each is said.
+void put_in_order(const Card& card, Curve& curve) {
+  const auto warn = [&](const std::string& what, const std::string& cure) {
+    card.warning("lcid", "curve " + std::to_string(curve.id) + ": " + what, cure);
+  };
+  std::vector<std::pair<double, double>> points(curve.x.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {curve.x[i], curve.y[i]};
+  const auto before = [](const auto& p, const auto& q) { return p.first < q.first; };
+  const auto wrong = std::is_sorted_until(points.begin(), points.end(), before);
+  if (wrong != points.end()) {
+    const bool falling = std::is_sorted(points.rbegin(), points.rend(), before);
+    warn("the abscissae do not ascend (" + fmt::format("{:g} after {:g}", wrong->first, (wrong - 1)->first) +
+             "); its points are taken in ascending order",
+         falling ? "write the points in ascending order" : "check these points for a slip of the pen");
+    std::stable_sort(points.begin(), points.end(), before);
+  }
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.empty()) return;
+  const double step = 1e-9 * std::max(points.back().first - points.front().first, 1e-300);
+  bool jump = false;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].first > points[i - 1].first) continue;
+    points[i].first = std::max(points[i - 1].first + step, std::nextafter(points[i - 1].first, INFINITY));
+    jump = true;
+  }
+  if (jump) warn("two points have one abscissa; the jump is spread over 1e-9 of the curve's range", "give two abscissae");
+  curve.x.resize(points.size());
+  curve.y.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) std::tie(curve.x[i], curve.y[i]) = points[i];
 }
 
 /// Two directions of three coordinates each as right-handed axes: x along the first, y in their plane.
@@ -49,19 +84,11 @@ void build_curve(Builder& b, Block& block) {
   const double sfa = or_one(card.real("sfa")), sfo = or_one(card.real("sfo"));
   const double offa = card.real("offa"), offo = card.real("offo");
   const bool any_order = card.integer("dattyp") != 0;
-  bool reported = false;
   block.for_each("point", [&](const Card& point) {
-    const double x = sfa * (point.real(0) + offa), y = sfo * (point.real(1) + offo);
-    if (!curve.x.empty() && !(x > curve.x.back()) && !any_order && !reported) {
-      if (x == curve.x.back() && y == curve.y.back()) return;
-      point.error("a", "the abscissa of curve " + std::to_string(curve.id) + " does not ascend (" +
-                  std::to_string(x) + " after " + std::to_string(curve.x.back()) + ")",
-                  "sort the points; a jump needs two slightly different abscissae");
-      reported = true;
-    }
-    curve.x.push_back(x);
-    curve.y.push_back(y);
+    curve.x.push_back(sfa * (point.real(0) + offa));
+    curve.y.push_back(sfo * (point.real(1) + offo));
   });
+  if (!any_order) put_in_order(card, curve);
   if (curve.x.empty()) {
     card.error("lcid", "curve " + std::to_string(curve.id) + " has no points", "give at least one line of abscissa and ordinate");
     curve.x = {0.0};

@@ -79,7 +79,7 @@ RigidMaterial read_rigid(Builder& b, Block& block, const Card& card) {
   return m;
 }
 
-ElasticMaterial read_elastic(Builder& b, const Card& card) {
+ElasticMaterial read_elastic(const Card& card) {
   ElasticMaterial m;
   m.density = card.real("ro", dimension::density);
   m.youngs_modulus = card.real("e", dimension::stress);
@@ -90,7 +90,6 @@ ElasticMaterial read_elastic(Builder& b, const Card& card) {
   if (m.poissons_ratio <= -1 || m.poissons_ratio >= 0.5) {
     card.error("pr", "found " + card.text("pr") + ", expected a Poisson's ratio between -1 and 0.5", "correct the value");
   }
-  (void)b;
   return m;
 }
 
@@ -157,7 +156,7 @@ void build_material(Builder& b, Block& block) {
     if (!card.present()) return;
     material.id = card.id("mid", IdKind::material);
     if (rigid) material.law = read_rigid(b, block, card);
-    else if (elastic) material.law = read_elastic(b, card);
+    else if (elastic) material.law = read_elastic(card);
     else if (known) material.law = read_spring(b, block, card, spring->second);
     else material.law = read_unsupported(block, card);
     if (b.materials.enter(card, "mid", static_cast<Index>(b.model.materials.size()))) {

@@ -37,7 +37,7 @@ class ElementLine {
       card.error("eid", std::string(what_) + " " + id_text(id_) + " is defined twice", "give each element its own number");
       return false;
     }
-    if (part_ == none) {
+    if (part_ == none && missing_parts_.insert(pid).second) {
       card.error("pid", "part " + id_text(pid) + " of " + what_ + " " + id_text(id_) + " is not defined",
                  "define it with *PART or correct the number");
     }
@@ -76,6 +76,7 @@ class ElementLine {
   const char* what_;
   UserId id_ = 0;
   PartIndex part_ = none;
+  std::set<UserId> missing_parts_;  // each is reported once in a block
 };
 
 /// Enters a quadrilateral or triangle; returns whether it was entered.
