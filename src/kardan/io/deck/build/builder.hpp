@@ -121,7 +121,11 @@ class Builder {
   };
   std::vector<PendingBody> pending_bodies;   ///< nodal rigid bodies whose node sets are not resolved yet
   std::vector<PartIndex> body_load_parts;    ///< *LOAD_BODY_PARTS
-  std::vector<SourceLocation> part_where;    ///< of each entry of model.parts
+  struct PartPlace {
+    SourceLocation where;
+    bool names_section, names_material;  // what is named and unknown has been reported already
+  };
+  std::vector<PartPlace> part_where;         ///< of each entry of model.parts
   std::vector<std::pair<SourceLocation, std::string>> material_where;  ///< of each material: place and keyword
   std::vector<Card> joint_where;             ///< first card of each joint
   std::vector<Card> joint_references;        ///< joint stiffnesses that name a joint

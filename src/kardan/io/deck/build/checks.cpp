@@ -33,7 +33,7 @@ void check_part(Builder& b, PartIndex p, const PartUse& use) {
   const Part& part = b.model.parts[at(p)];
   const std::string name = "part " + std::to_string(part.id);
   const auto error = [&](std::string field, std::string message, std::string cure) {
-    b.diagnostics.add({Severity::error, b.part_where[at(p)], part.inertia ? "*PART_INERTIA" : "*PART", std::move(field),
+    b.diagnostics.add({Severity::error, b.part_where[at(p)].where, part.inertia ? "*PART_INERTIA" : "*PART", std::move(field),
                        std::move(message), std::move(cure)});
   };
   if (use.total() == 0) return;
@@ -41,8 +41,9 @@ void check_part(Builder& b, PartIndex p, const PartUse& use) {
     error("PID", name + " is a nodal rigid body but has elements", "give the elements a part of their own");
     return;
   }
-  if (part.section == none) error("SECID", name + " has elements but no section", "name a section of *SECTION");
-  if (part.material == none) error("MID", name + " has elements but no material", "name a material of *MAT");
+  const Builder::PartPlace& place = b.part_where[at(p)];
+  if (part.section == none && !place.names_section) error("SECID", name + " has elements but no section", "name a section of *SECTION");
+  if (part.material == none && !place.names_material) error("MID", name + " has elements but no material", "name a material of *MAT");
   if (part.section != none) {
     const ElementKind kind = b.model.sections[at(part.section)].kind;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -97,7 +98,7 @@ void check_empty_bodies(Builder& b, const std::vector<PartUse>& use) {
   for (std::size_t p = 0; p < b.model.parts.size(); ++p) {
     const Part& part = b.model.parts[p];
     if (part.nodal_rigid_body != none || part.inertia || fed[p] || use[p].total() != 0) continue;
-    b.diagnostics.add({Severity::warning, b.part_where[p], "*PART", "PID", "part " + std::to_string(part.id) + " has no elements",
+    b.diagnostics.add({Severity::warning, b.part_where[p].where, "*PART", "PID", "part " + std::to_string(part.id) + " has no elements",
                        "leave the part out, or check the part numbers of the elements"});
   }
 }

@@ -118,11 +118,13 @@ void add_solid(Builder& b, ElementLine& line, const Card& card, const std::array
   for (std::size_t i = 4; i < 8; ++i) {  // a shorter list ends in zeros: the last node is repeated
     if (n[i] == none) n[i] = n[i - 1];
   }
-  std::set<NodeIndex> distinct(n.begin(), n.end());
-  if (distinct.contains(none)) {
+  std::array<NodeIndex, 8> corners = n;
+  std::sort(corners.begin(), corners.end());
+  const auto distinct = std::unique(corners.begin(), corners.end()) - corners.begin();
+  if (corners[0] == none) {
     card.error_on_card("solid " + id_text(line.id()) + " has fewer than four nodes that exist", "correct the connectivity");
-  } else if (distinct.size() < 4) {
-    card.error_on_card("solid " + id_text(line.id()) + " has only " + std::to_string(distinct.size()) + " different nodes",
+  } else if (distinct < 4) {
+    card.error_on_card("solid " + id_text(line.id()) + " has only " + std::to_string(distinct) + " different nodes",
                "a tetrahedron needs four");
   }
   solids.id.push_back(line.id());

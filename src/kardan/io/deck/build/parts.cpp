@@ -92,8 +92,8 @@ void build_part(Builder& b, Block& block) {
       if (inertia && part.material != none && !b.model.materials[static_cast<std::size_t>(part.material)].rigid()) {
         card.error("mid", "the part has given inertia but its material is not *MAT_RIGID", "use *MAT_RIGID or *PART");
       }
+      b.part_where.push_back({card.where(), card.id("secid", IdKind::other) != 0, card.id("mid", IdKind::material) != 0});
       b.model.parts.push_back(std::move(part));
-      b.part_where.push_back(card.where());
     }
   }
 }

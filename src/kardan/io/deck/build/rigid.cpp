@@ -53,7 +53,7 @@ void build_nodal_rigid_body(Builder& b, Block& block) {
     part.title = body.title.empty() ? "nodal rigid body" : body.title;
     part.nodal_rigid_body = static_cast<Index>(b.model.nodal_rigid_bodies.size());
     b.model.parts.push_back(std::move(part));
-    b.part_where.push_back(card.where());
+    b.part_where.push_back({card.where(), false, false});
     b.pending_bodies.push_back({card, static_cast<Index>(b.model.nodal_rigid_bodies.size()), set, default_set});
     b.model.nodal_rigid_bodies.push_back(std::move(body));
   }
