@@ -43,7 +43,7 @@ TEST(Keyword, NotNeededIsNamedOnce) {
 }
 
 TEST(Keyword, ContactStopsUnlessLeftOut) {
-  const std::string text = "*CONTACT_AUTOMATIC_SINGLE_SURFACE_ID\n1\n*RIGIDWALL_PLANAR\n1\n*MAT_024\n1\n*CONTACT_FORCE_TRANSDUCER_PENALTY\n1\n*END";
+  const std::string text = "*CONTACT_AUTOMATIC_SINGLE_SURFACE_ID\n1\n*RIGIDWALL_PLANAR\n1\n*AIRBAG_SIMPLE_PRESSURE_VOLUME\n1\n*CONTACT_FORCE_TRANSDUCER_PENALTY\n1\n*END";
   Read refused(text);
   EXPECT_EQ(refused.diagnostics.error_count(), 3u) << refused.messages();
   EXPECT_NE(find_message(refused.diagnostics, Severity::error, "--without contact"), nullptr);
