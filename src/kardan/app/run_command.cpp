@@ -21,7 +21,7 @@ namespace kardan::app {
 namespace {
 
 SolverOptions solver_options(const RunRequest& request) {
-  return {.joints = request.joints, .end_time = {}, .dt = request.dt, .threads = request.threads};
+  return {.joints = request.joints, .dt = request.dt, .threads = request.threads};
 }
 
 /// The model of the deck. An end time of the command line takes the place of ENDTIM, so that whoever reads the model's

@@ -29,9 +29,9 @@ class NodeMover;
 
 /// What the command line can override.
 struct SolverOptions {
-  std::optional<JointHolding> joints;  ///< absent: as the deck says (see joint_holding)
-  std::optional<double> end_time;      ///< absent: ENDTIM
-  std::optional<double> dt;            ///< constant step if nothing deforms, else an upper bound
+  std::optional<JointHolding> joints{};  ///< absent: as the deck says (see joint_holding)
+  std::optional<double> end_time{};      ///< absent: ENDTIM
+  std::optional<double> dt{};            ///< constant step if nothing deforms, else an upper bound
   int threads = 1;
 };
 
