@@ -179,7 +179,7 @@ TEST_F(Program, FaultsOfADeckAreAllReportedWithTheirLines) {
   text.replace(text.find("1,1.25,2.1e5,0.3"), 16, "1,1.2x5,2.1e5,0.3");
   text.replace(text.find("1,1,1,2,3,4,5,6,7,8"), 19, "1,1,1,2,3,4,5,6,7,99");
   EXPECT_EQ(call({"run", deck("cube.k", text), "-o", (folder / "out").string()}), 2);
-  EXPECT_THAT(err, HasSubstr("cube.k:19:"));
+  EXPECT_THAT(err, HasSubstr("cube.k:20:"));
   EXPECT_THAT(err, HasSubstr("*MAT_RIGID"));
   EXPECT_THAT(err, HasSubstr("1.2x5"));
   EXPECT_THAT(err, HasSubstr("99"));

@@ -140,6 +140,7 @@ TEST(Solver, SpringOscillatesAtItsFrequencyAndStepIsSetByIt) {
   EXPECT_NEAR(solver.state().nodes.v_now[1].x, 0.5, 1e-6);
   EXPECT_NEAR(solver.state().energy.ratio(), 1, 1e-6);
 
+  masses.model.control.termination.end_time = 1e4;  // 1/20,000 of it is more than the spring allows
   Solver free_step(masses.model, {}, diagnostics);
   ASSERT_TRUE(free_step.step());
   EXPECT_EQ(to_string(free_step.view().step), "discrete 1");
@@ -170,7 +171,7 @@ TEST(Solver, EndsWhereTheStepFallsBelowItsLimit) {
 }
 
 TEST(Solver, EndsWhereTheEnergyRatioLeavesItsLimits) {
-  PointMasses masses = oscillator(10);
+  PointMasses masses = oscillator(1e4);
   masses.model.control.termination.end_energy = 0.01;  // percent; the leapfrog's own ripple at 0.9 of the stable step is more
   Diagnostics diagnostics;
   Solver solver(masses.model, {}, diagnostics);
@@ -260,7 +261,9 @@ TEST(Solver, RefusesWhatCannotBeRunNamingTheIds) {
   EXPECT_THAT(to_string(no_end.all().back()), HasSubstr("*CONTROL_TERMINATION: the run has no end time"));
 
   PointMasses loose(1, 1e-3);
-  loose.spring(loose.add({}, 1), loose.add({1, 0, 0}, 0), 10);
+  loose.add({}, 1);
+  loose.add({1, 0, 0}, 0);
+  loose.spring(0, 1, 10);
   Diagnostics massless;
   EXPECT_THROW(Solver(loose.model, {}, massless), InputError);
   EXPECT_THAT(to_string(massless.all().back()), HasSubstr("node 102"));

@@ -42,6 +42,8 @@ struct RigidSystem::Impl {
   void set_trial(const State& state);
   void solve_joints(const Model& model, State& state);
   void fill_body_reports(State& state);
+  void take_velocities(State& state) const;         ///< of bodies and needed nodes, at t_{n+1/2}
+  Vec3 node_position(std::size_t needed_index) const;  ///< at t_{n+1}
   const std::vector<double>& row_forces() const { return holding == JointHolding::exact ? exact.force : penalty.force; }
   const JointSeparation& separation() const { return holding == JointHolding::exact ? exact.largest : penalty.largest; }
 };
@@ -227,31 +229,41 @@ void RigidSystem::kick(const Model& model, State& state) {
   s.motors.account(s.joints, s.row_forces(), state.clock);
   for (Index j : s.failure.check(model, state, s.joints, s.bodies, s.row_forces()))
     spdlog::info("joint {} ({}) fails at t = {:.6g}", model.joints[j].id, to_string(model.joints[j].kind), state.clock.time);
+  s.take_velocities(state);
+}
+
+void RigidSystem::Impl::take_velocities(State& state) const {
+  const double h = state.clock.dt;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    BodyMotion& m = state.bodies.motion[b];
+    const BodyTrial& t = bodies.trial[b];
+    m.angular_momentum = bodies.angular_momentum_after(b, h);
+    m.velocity = t.constrained_velocity;
+    m.angular_velocity = t.angular_velocity;
+  }
+  // Eq. (12): velocities of nodes from their positions.
+  for (std::size_t k = 0; k < needed.size(); ++k) {
+    const auto b = static_cast<std::size_t>(needed_body[k]);
+    const NodeIndex n = assembly.nodes.node[needed[k]];
+    state.nodes.v[n] = (node_position(k) - state.nodes.x[n]) / h;
+    state.nodes.omega[n] = bodies.trial[b].angular_velocity;
+  }
+}
+
+Vec3 RigidSystem::Impl::node_position(std::size_t k) const {
+  const BodyTrial& t = bodies.trial[static_cast<std::size_t>(needed_body[k])];
+  return t.center + t.rotation * assembly.nodes.arm[needed[k]];
 }
 
 void RigidSystem::drift(const Model&, State& state) {
   Impl& s = *impl_;
-  const double h = state.clock.dt;
-  s.joints.remember_step(s.bodies, h);
+  s.joints.remember_step(s.bodies, state.clock.dt);
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-    BodyMotion& m = state.bodies.motion[b];
-    const BodyTrial& t = s.bodies.trial[b];
-    m.angular_momentum = s.bodies.angular_momentum_after(b, h);
-    m.velocity = t.constrained_velocity;
-    m.angular_velocity = t.angular_velocity;
-    m.center = t.center;
-    m.orientation = t.orientation;
+    state.bodies.motion[b].center = s.bodies.trial[b].center;
+    state.bodies.motion[b].orientation = s.bodies.trial[b].orientation;
   }
-  // Eqs. (9) and (12): positions from the pose, velocities from the positions.
-  const BodyNodes& nodes = s.assembly.nodes;
-  for (std::size_t k = 0; k < s.needed.size(); ++k) {
-    const auto b = static_cast<std::size_t>(s.needed_body[k]);
-    const NodeIndex n = nodes.node[s.needed[k]];
-    const Vec3 x = s.bodies.trial[b].center + s.bodies.trial[b].rotation * nodes.arm[s.needed[k]];
-    state.nodes.v[n] = (x - state.nodes.x[n]) / h;
-    state.nodes.x[n] = x;
-    state.nodes.omega[n] = s.bodies.trial[b].angular_velocity;
-  }
+  for (std::size_t k = 0; k < s.needed.size(); ++k)  // eq. (9)
+    state.nodes.x[s.assembly.nodes.node[s.needed[k]]] = s.node_position(k);
 }
 
 void RigidSystem::update_reports(const Model&, State& state) const {

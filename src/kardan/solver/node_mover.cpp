@@ -15,17 +15,6 @@ constexpr std::ptrdiff_t parallel_threshold = 8192;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Marks nodes that something other than mass holds: constraints and prescribed motions.
-std::vector<char> held_nodes(const Model& model) {
-  std::vector<char> held(model.nodes.size(), 0);
-  for (std::size_t i = 0; i < model.nodes.constrained.size(); ++i) held[i] = model.nodes.constrained[i] != 0;
-  for (const SinglePointConstraint& constraint : model.constraints)
-    for (NodeIndex node : constraint.nodes) held[at(node)] = 1;
-  for (const PrescribedMotion& motion : model.prescribed_motions)
-    for (NodeIndex node : motion.nodes) held[at(node)] = 1;
-  return held;
-}
-
 template <class Block>
 void count_parts(const Block& block, std::size_t nodes_used, std::vector<std::map<PartIndex, int>>& parts_of) {
   for (std::size_t e = 0; e < block.size(); ++e)
@@ -35,7 +24,7 @@ void count_parts(const Block& block, std::size_t nodes_used, std::vector<std::ma
 
 }  // namespace
 
-NodeMover::NodeMover(const Model& model, State& state, Diagnostics& diagnostics) {
+NodeMover::NodeMover(const Model& model, State& state) {
   NodeState& nodes = state.nodes;
   for (std::size_t i = 0; i < nodes.x.size(); ++i) {
     if (nodes.body[i] != none) continue;
@@ -49,16 +38,6 @@ NodeMover::NodeMover(const Model& model, State& state, Diagnostics& diagnostics)
   v_before_.resize(free_.size());
   omega_before_.resize(free_.size());
   find_parts(model, state);
-
-  const std::vector<char> held = held_nodes(model);
-  for (std::size_t e = 0; e < model.discretes.size(); ++e)
-    for (NodeIndex node : model.discretes.nodes[e])
-      if (node != none && nodes.body[at(node)] == none && !(nodes.mass[at(node)] > 0) && !held[at(node)])
-        diagnostics.error(
-            fmt::format("discrete element {} pulls at node {}, which has no mass and belongs to no rigid body",
-                        model.discretes.id[e], model.nodes.id[at(node)]),
-            "give the node a mass (*ELEMENT_MASS), attach it to a rigid body (*CONSTRAINED_EXTRA_NODES) or constrain it",
-            "*ELEMENT_DISCRETE");
 }
 
 void NodeMover::find_parts(const Model& model, const State& state) {

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "kardan/base/diagnostics.hpp"
 #include "kardan/model/model.hpp"
 #include "kardan/state/state.hpp"
 
@@ -13,9 +12,8 @@ namespace kardan {
 class NodeMover {
  public:
   /// Sorts the nodes: free ones have mass and no body; nodes without mass and body stay where they are (orientation
-  /// nodes, leftovers), unless a prescribed motion moves them. A spring on a node that has no mass, no body and no
-  /// constraint is an error. `state.nodes.mass` and `.body` must be final.
-  NodeMover(const Model& model, State& state, Diagnostics& diagnostics);
+  /// nodes, leftovers), unless a prescribed motion moves them. `state.nodes.mass` and `.body` must be final.
+  NodeMover(const Model& model, State& state);
 
   /// Velocities of the free nodes to t_{n+1/2}: v += F/m kick, omega += M/I kick.
   /// @throws RunError naming a node whose velocity is no longer finite; all nodes then have their velocities of before.

@@ -70,7 +70,7 @@ void Solver::set_up(const SolverOptions& options, Diagnostics& diagnostics) {
   if (!diagnostics.ok()) return;
   LoadSystem::set_initial_velocities(model_, state_, diagnostics);
   rigid_->set_initial_velocities(model_, state_, diagnostics);
-  nodes_ = std::make_unique<NodeMover>(model_, state_, diagnostics);
+  nodes_ = std::make_unique<NodeMover>(model_, state_);
 
   for (std::size_t i = 0; i < state_.nodes.x.size(); ++i)
     if (state_.nodes.body[i] == none || state_.nodes.needed[i]) summed_nodes_.push_back(static_cast<NodeIndex>(i));
