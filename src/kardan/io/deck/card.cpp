@@ -178,7 +178,7 @@ double Card::real(int field) const {
   const FieldLayout& f = layout_->fields[static_cast<std::size_t>(field)];
   int column = 0;
   const std::string_view text = field_text(field, column);
-  if (text.empty()) return f.type == 'I' ? static_cast<double>(f.default_integer) : f.default_real;
+  if (text.empty()) return f.default_real;
   if (has_references_ && refers(text)) {
     const auto value = evaluated(text, f, column);
     if (!value) return f.default_real;

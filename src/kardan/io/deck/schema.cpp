@@ -37,7 +37,7 @@ FieldLayout parse_field(std::string_view text) {
   field.width[0] = to_int(text.substr(plus + 1, std::min(equals, text.size()) - plus - 1));
   if (equals == std::string_view::npos) return field;
   field.default_text = text.substr(equals + 1);
-  if (field.type == 'F') field.default_real = parse_real(field.default_text).value;
+  if (field.type != 'A') field.default_real = parse_real(field.default_text).value;
   if (field.type == 'I') field.default_integer = parse_integer(field.default_text).value;
   return field;
 }
