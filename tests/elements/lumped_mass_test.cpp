@@ -63,11 +63,13 @@ TEST(LumpedMass, DistortedShellTriangleAndSolid) {
   b.shell(p, {n1, far, n2, n2});
   b.model.shells.thickness[1] = {0.1, 0.2, 0.3, 0};
   b.start();
+  ASSERT_TRUE(b.diagnostics.ok());
   const double quad = 0.5 * std::abs(2.2 * 1.3 - 1.7 * -2.1);  // diagonals (2.2, 1.7) and (-2.1, 1.3)
   const double triangle = 0.5 * std::abs(8 * 1.6 - (-0.1) * 0.2);
   EXPECT_NEAR(b.state.nodes.mass[n0], quad * (0.1 * 7800 + 5) / 4, 1e-10);
   EXPECT_NEAR(b.state.nodes.mass[far], triangle * (0.2 * 7800 + 5) / 3, 1e-9);
   EXPECT_NEAR(total(b.state.nodes.mass), quad * 785 + triangle * 1565, 1e-9);
+  EXPECT_EQ(b.state.nodes.needed[far], 1);
   EXPECT_NEAR(b.state.nodes.inertia[n0], quad * 785 / 4 * quad / 8, 1e-9);
 }
 

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "kardan/elements/discrete/discrete_forces.hpp"
 #include "kardan/elements/geometry.hpp"
 #include "kardan/elements/lumped_mass.hpp"
+#include "kardan/elements/shell/shell_forces.hpp"
 
 namespace kardan {
 
@@ -46,23 +48,21 @@ void refuse_deformable(const Model& model, const Block& block, const char* keywo
 }  // namespace
 
 struct ElementSystem::Impl {
-  Impl(const Model& model, State& state, Diagnostics& diagnostics) : discretes(model, state, diagnostics) {}
+  Impl(const Model& model, State& state, Diagnostics& diagnostics)
+      : shells(model, state, diagnostics), discretes(model, state, diagnostics) {}
 
+  ShellForces shells;
   DiscreteForces discretes;
-  std::vector<double> internal, hourglass;  ///< energies at t_n by part
 };
 
 ElementSystem::ElementSystem(const Model& model, State& state, Diagnostics& diagnostics) {
   add_lumped_masses(model, state, diagnostics);
   impl_ = std::make_unique<Impl>(model, state, diagnostics);
-  refuse_deformable(model, model.shells, "*ELEMENT_SHELL", "shells", diagnostics);
   refuse_deformable(model, model.solids, "*ELEMENT_SOLID", "solids", diagnostics);
   refuse_deformable(model, model.beams, "*ELEMENT_BEAM", "beams", diagnostics);
   state.discretes.assign(model.discretes.size(), DiscreteReport{});
   state.energy.part_internal.assign(model.parts.size(), 0.0);
   state.energy.part_hourglass.assign(model.parts.size(), 0.0);
-  impl_->internal.assign(model.parts.size(), 0.0);
-  impl_->hourglass.assign(model.parts.size(), 0.0);
 }
 
 ElementSystem::~ElementSystem() = default;
@@ -70,12 +70,16 @@ ElementSystem::ElementSystem(ElementSystem&&) noexcept = default;
 ElementSystem& ElementSystem::operator=(ElementSystem&&) noexcept = default;
 
 void ElementSystem::internal_forces(const Model& model, State& state) {
+  impl_->shells.internal_forces(model, state);
   impl_->discretes.internal_forces(model, state);
 }
 
 double ElementSystem::stable_time_step() const { return governing().time_step; }
 
-Governing ElementSystem::governing() const { return impl_->discretes.governing(); }
+Governing ElementSystem::governing() const { 
+  const Governing &shell = impl_->shells.governing(), &discrete = impl_->discretes.governing();
+  return discrete.time_step < shell.time_step ? discrete : shell;
+}
 
 double ElementSystem::rigid_courant_time_step(const Model& model, const State& state) const {
   double dt = unlimited;
@@ -105,9 +109,13 @@ double ElementSystem::rigid_courant_time_step(const Model& model, const State& s
 }
 
 void ElementSystem::account(const Model&, State& state) {
-  state.energy.spring_damper = impl_->discretes.energy();
-  state.energy.part_internal = impl_->internal;
-  state.energy.part_hourglass = impl_->hourglass;
+  EnergyLedger& energy = state.energy;
+  energy.spring_damper = impl_->discretes.energy();
+  std::fill(energy.part_internal.begin(), energy.part_internal.end(), 0.0);
+  std::fill(energy.part_hourglass.begin(), energy.part_hourglass.end(), 0.0);
+  impl_->shells.add_energies(energy.part_internal, energy.part_hourglass);
+  energy.internal = std::accumulate(energy.part_internal.begin(), energy.part_internal.end(), 0.0);
+  energy.hourglass = std::accumulate(energy.part_hourglass.begin(), energy.part_hourglass.end(), 0.0);
 }
 
 }  // namespace kardan

@@ -1,0 +1,55 @@
+// The shell kernel as the rest of the program sees it: plain pointers in, plain pointers out, one entry an instruction set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kardan/base/lanes.hpp"
+#include "kardan/materials/elastic_plane_stress.hpp"
+
+namespace kardan {
+
+inline constexpr std::size_t max_shell_points = 32;
+
+/// What all elements of a tile share.
+struct ShellProperties {
+  ElasticPlaneStress law;
+  int points = 2;                      ///< through the thickness
+  double zeta[max_shell_points] = {};  ///< z / (h/2) of the points, measured from the surface of the nodes
+  double weight[max_shell_points] = {};///< Gauss weights, sum 2
+  double wave_speed = 0;               ///< sqrt(E / (rho (1 - nu^2)))
+  bool stiffness_hourglass = false;    ///< IHQ 4, 5; else viscous
+  double hourglass_membrane = 0;       ///< stiffness: r E/8;            viscous: QM rho c/4
+  double hourglass_bending = 0;        ///< stiffness: r E/192;          viscous: the membrane's / 24
+  double hourglass_warping = 0;        ///< stiffness: r k G/12;         viscous: the membrane's (2/3) k G/E
+  bool side_lengths = true;            ///< time step by sides (ISDO 0), else by diagonals
+};
+
+/// Number of values that one element keeps: 5 stresses a point, 5 hourglass forces, thickness.
+constexpr std::size_t shell_history_size(int points) { return 5 * static_cast<std::size_t>(points) + 6; }
+
+/// One tile in one cycle. Local arrays are indexed by the tile's own nodes.
+struct ShellTileWork {
+  const ShellProperties* properties = nullptr;
+  const std::uint16_t* connectivity = nullptr;  ///< [block][4][block_lanes]
+  std::size_t elements = 0;
+  const double* x = nullptr;      ///< [node][3] at t_n
+  const double* v = nullptr;      ///< [node][6] velocity, angular velocity at t_{n-1/2}
+  double dt = 0;                  ///< t_n - t_{n-1}
+  double* history = nullptr;      ///< [block][shell_history_size][block_lanes]
+  double* force = nullptr;        ///< [node][6] force and moment on the nodes; overwritten
+  std::size_t nodes = 0;
+  double internal_increment = 0;  ///< out: work of the stresses over the step
+  double hourglass_increment = 0; ///< out
+  double time_step = 0;           ///< out: smallest stable step
+  std::size_t governing = 0;      ///< out: its element in the tile
+  std::size_t broken = 0;         ///< out: 1 + an element without area or with a value that is not finite; 0 = none
+};
+
+using ShellKernel = void (*)(ShellTileWork&);
+
+/// The Belytschko-Tsay kernel with MAT_ELASTIC, for the best instruction set of this processor, or for the one the environment
+/// variable KARDAN_ISA names (x86-64-v2, -v3, -v4) if the processor has it.
+ShellKernel belytschko_tsay_elastic();
+
+}  // namespace kardan
