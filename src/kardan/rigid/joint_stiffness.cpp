@@ -189,7 +189,7 @@ void JointStiffnesses::apply(const Model& model, State& state, const BodySet& bo
       report.energy += 0.5 * (moment + m.moment[i]) * dq;
       report.coordinate[i] = q;
       report.rate[i] = rate;
-      report.elastic[i] = elastic;
+      report.elastic[i] = only_scales ? k.bend : elastic;
       report.damping[i] = damping;
       report.total[i] = moment;
       m.coordinate[i] = q;

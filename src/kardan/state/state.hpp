@@ -103,6 +103,7 @@ struct JointReport {
 struct JointStiffnessReport {
   std::array<double, 3> coordinate{}, rate{};             ///< radians (length) and radians/time
   std::array<double, 3> elastic{}, damping{}, total{};    ///< moments (forces)
+  ///< flexion-torsion: elastic[1] is the factor that gamma puts on alpha's moment
   double energy = 0;                                      ///< stored plus dissipated
 };
 
