@@ -181,6 +181,29 @@ TEST(D3plot, VtkSeesEveryNodeElementAndPart) {
   expect_vtk_reads(directory, expected);
 }
 
+TEST(D3plot, AModelOfShellsAloneIsReadToo) {
+  SKIP_WITHOUT_VTK();
+  Model m = make_model();
+  m.solids = {};
+  m.beams = {};
+  m.discretes = {};
+  const auto directory = output_directory();
+  State s = make_state(m);
+  s.discretes.assign(1, {});
+  D3plotWriter writer(directory / "d3plot", label, m, s, {});
+  auto expected = expected_of(m);
+  for (const char* gone : {"900", "33", "31"}) expected["elements"].erase(gone);
+  advance(m, s, 0.5, 0.01);
+  writer.write_state(m, s);
+  expected["states"].push_back({{"time", 0.5}, {"nodes", nlohmann::json::object()}});
+  for (const UserId id : {101, 106, 205}) {
+    const auto n = static_cast<std::size_t>(m.nodes.index_of.at(id));
+    const Vec3 &x = s.nodes.x[n], &v = s.nodes.v_now[n], &a = s.nodes.a[n];
+    expected["states"][0]["nodes"][std::to_string(id)] = {x.x, x.y, x.z, v.x, v.y, v.z, a.x, a.y, a.z};
+  }
+  expect_vtk_reads(directory, expected);
+}
+
 TEST(D3plot, SplitsIntoAFamilyThatReadsAsOne) {
   SKIP_WITHOUT_VTK();
   const Model m = make_model();
