@@ -17,7 +17,9 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
 
 struct LawName {
   std::string operator()(const RigidMaterial&) const { return "rigid"; }
@@ -63,8 +65,8 @@ void write_mesh(const Model& model, Out out) {
       high[i] = std::max(high[i], x[i]);
     }
   }
-  fmt::format_to(out, "extent               x {:g} to {:g}, y {:g} to {:g}, z {:g} to {:g}\n", low.x, high.x, low.y, high.y,
-                 low.z, high.z);
+  fmt::format_to(out, "extent               x {:g} to {:g}, y {:g} to {:g}, z {:g} to {:g}\n", low.x, high.x, low.y,
+                 high.y, low.z, high.z);
 }
 
 std::vector<std::size_t> elements_by_part(const Model& model) {
@@ -96,8 +98,8 @@ void write_parts(const Model& model, Out out) {
     const double mass = given ? given->mass : masses[p];
     total += mass;
     if (p < most) {
-      fmt::format_to(out, "{:>10}  {:>9}  {:>12.5g}  {:<26} {}{}\n", part.id, elements[p], mass, material_name(model, part),
-                     part.title, given ? "  [given inertia]" : "");
+      fmt::format_to(out, "{:>10}  {:>9}  {:>12.5g}  {:<26} {}{}\n", part.id, elements[p], mass,
+                     material_name(model, part), part.title, given ? "  [given inertia]" : "");
     }
   }
   if (model.parts.size() > most) fmt::format_to(out, "           … and {} more\n", model.parts.size() - most);

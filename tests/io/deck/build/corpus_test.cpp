@@ -42,8 +42,8 @@ TEST(Corpus, EveryDeckGivesAModelOrMessages) {
     const Model model = load_model(deck, options, diagnostics);
     std::cout << std::filesystem::relative(deck, corpus).string() << ": " << diagnostics.error_count() << " errors, "
               << model.unsupported.size() << " unsupported; " << model.nodes.size() << " nodes, "
-              << model.shells.size() + model.solids.size() + model.beams.size() + model.discretes.size() << " elements, "
-              << model.parts.size() << " parts\n";
+              << model.shells.size() + model.solids.size() + model.beams.size() + model.discretes.size()
+              << " elements, " << model.parts.size() << " parts\n";
     if (std::getenv("KARDAN_SHOW_MESSAGES") != nullptr) {
       std::cout << messages(diagnostics, Severity::warning);
       for (const Diagnostic& d : model.unsupported) std::cout << "  UNSUPPORTED " << to_string(d) << "\n";

@@ -12,8 +12,8 @@ struct BuildOptions {
   double end_time = 0;
 };
 
-/// Consumes the blocks of `deck`. Faults of the deck go into `diagnostics` (the model is then incomplete and must not be
-/// run); what is right but cannot be computed by Kardan goes into Model::unsupported. Never throws on bad input.
+/// Consumes the blocks of `deck`. Faults of the deck go into `diagnostics` (the model is then incomplete and must not
+/// be run); what is right but cannot be computed by Kardan goes into Model::unsupported. Never throws on bad input.
 Model build_model(Deck& deck, const BuildOptions& options, Diagnostics& diagnostics);
 
 /// Keywords that the builder takes; the schema's honoured keywords must all be among them.

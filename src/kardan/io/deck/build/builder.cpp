@@ -12,7 +12,18 @@ namespace kardan::deck {
 namespace {
 
 /// When a keyword's turn comes: everything it may name belongs to an earlier phase.
-enum Phase : int { nodes_phase, control_phase, curves, frames, properties, parts_phase, elements_phase, sets_phase, rest, phases };
+enum Phase : int {
+  nodes_phase,
+  control_phase,
+  curves,
+  frames,
+  properties,
+  parts_phase,
+  elements_phase,
+  sets_phase,
+  rest,
+  phases
+};
 
 struct Entry {
   int phase;
@@ -74,15 +85,15 @@ struct Family {
   Entry entry;
 };
 constexpr std::array<Family, 10> families{{{"SET_", {sets_phase, register_set}},
-                                          {"CONSTRAINED_JOINT_STIFFNESS", {rest, build_joint_stiffness}},
-                                          {"CONSTRAINED_JOINT_", {rest, build_joint}},
-                                          {"CONSTRAINED_NODAL_RIGID_BODY", {elements_phase, build_nodal_rigid_body}},
-                                          {"BOUNDARY_PRESCRIBED_MOTION_RIGID", {rest, build_prescribed_motion}},
-                                          {"LOAD_BODY_", {rest, build_body_load}},
-                                          {"MAT_", {properties, build_material}},
-                                          {"CONTROL_", {rest, build_control}},
-                                          {"DATABASE_HISTORY_", {rest, build_history}},
-                                          {"DATABASE_", {rest, build_database}}}};
+                                           {"CONSTRAINED_JOINT_STIFFNESS", {rest, build_joint_stiffness}},
+                                           {"CONSTRAINED_JOINT_", {rest, build_joint}},
+                                           {"CONSTRAINED_NODAL_RIGID_BODY", {elements_phase, build_nodal_rigid_body}},
+                                           {"BOUNDARY_PRESCRIBED_MOTION_RIGID", {rest, build_prescribed_motion}},
+                                           {"LOAD_BODY_", {rest, build_body_load}},
+                                           {"MAT_", {properties, build_material}},
+                                           {"CONTROL_", {rest, build_control}},
+                                           {"DATABASE_HISTORY_", {rest, build_history}},
+                                           {"DATABASE_", {rest, build_database}}}};
 
 const Entry* find_entry(const std::string& keyword) {
   const auto hit = table().find(keyword);
@@ -93,11 +104,15 @@ const Entry* find_entry(const std::string& keyword) {
   return nullptr;
 }
 
-std::string quoted(std::string_view what, UserId id) { return std::string(what) + " " + std::to_string(id); }
+std::string quoted(std::string_view what, UserId id) {
+  return std::string(what) + " " + std::to_string(id);
+}
 
 }  // namespace
 
-bool builds(const std::string& keyword) { return find_entry(keyword) != nullptr; }
+bool builds(const std::string& keyword) {
+  return find_entry(keyword) != nullptr;
+}
 
 Model build_model(Deck& deck, const BuildOptions& options, Diagnostics& diagnostics) {
   Model model;
@@ -181,7 +196,8 @@ NodeIndex Builder::node(const Card& card, std::string_view field) {
     return none;
   }
   const NodeIndex n = model.nodes.index_of.index(id);
-  if (n == none) card.error(field, quoted("node", id) + " is not defined", "define it with *NODE or correct the number");
+  if (n == none)
+    card.error(field, quoted("node", id) + " is not defined", "define it with *NODE or correct the number");
   return n;
 }
 
@@ -194,7 +210,8 @@ PartIndex Builder::body(const Card& card, std::string_view field) {
   if (p == none || model.body_part(p)) return p;
   const Index material = model.parts[static_cast<std::size_t>(p)].material;
   if (material != none) {  // without a material the part itself has been reported
-    card.error(field, quoted("part", model.parts[static_cast<std::size_t>(p)].id) + " is not rigid, expected a rigid body",
+    card.error(field,
+               quoted("part", model.parts[static_cast<std::size_t>(p)].id) + " is not rigid, expected a rigid body",
                "give the part *MAT_RIGID, or name a nodal rigid body");
   }
   return none;
@@ -240,8 +257,8 @@ std::vector<PartIndex> Builder::part_set(const Card& card, std::string_view fiel
 void Builder::unsupported(const Card& card, std::string_view field, std::string message, std::string cure) {
   std::string name(field);
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::toupper(c); });
-  model.unsupported.push_back({Severity::error, field.empty() ? card.where() : card.where(field), card.block().as_written(),
-                               std::move(name), std::move(message), std::move(cure)});
+  model.unsupported.push_back({Severity::error, field.empty() ? card.where() : card.where(field),
+                               card.block().as_written(), std::move(name), std::move(message), std::move(cure)});
 }
 
 void Builder::unsupported(const Block& block, std::string message, std::string cure) {
@@ -263,7 +280,8 @@ void Builder::refuse_nonzero(const Card& card, std::string_view field, const std
 int Builder::integer_in(const Card& card, std::string_view field, int low, int high) {
   const std::int64_t value = card.integer(field);
   if (value >= low && value <= high) return static_cast<int>(value);
-  card.error(field, "found " + std::to_string(value) + ", expected " + std::to_string(low) + " to " + std::to_string(high),
+  card.error(field,
+             "found " + std::to_string(value) + ", expected " + std::to_string(low) + " to " + std::to_string(high),
              "correct the value");
   return low;
 }

@@ -1,4 +1,5 @@
-// What the builders of the keyword families share: the model in the making, the numbers met so far, resolved references.
+// What the builders of the keyword families share: the model in the making, the numbers met so far, resolved
+// references.
 #pragma once
 
 #include <array>
@@ -63,7 +64,9 @@ class Builder {
   PartIndex body(const Card& card, std::string_view field);
   /// A curve; 0 gives the constant 1 (with a warning: the scale factor acts as a constant), negative is an error.
   CurveIndex curve_or_constant(const Card& card, std::string_view field);
-  CurveIndex optional_curve(const Card& card, std::string_view field) { return optional_reference(card, field, curves); }
+  CurveIndex optional_curve(const Card& card, std::string_view field) {
+    return optional_reference(card, field, curves);
+  }
   /// Curve number given directly (already shifted).
   CurveIndex curve_of_id(const Card& card, std::string_view field, UserId id);
   /// Nodes of the set named in a field that must name one.
@@ -119,17 +122,17 @@ class Builder {
     UserId set;
     bool default_set;  // NSID left at 0
   };
-  std::vector<PendingBody> pending_bodies;   ///< nodal rigid bodies whose node sets are not resolved yet
-  std::vector<PartIndex> body_load_parts;    ///< *LOAD_BODY_PARTS
+  std::vector<PendingBody> pending_bodies;  ///< nodal rigid bodies whose node sets are not resolved yet
+  std::vector<PartIndex> body_load_parts;   ///< *LOAD_BODY_PARTS
   struct PartPlace {
     SourceLocation where;
     bool names_section, names_material;  // what is named and unknown has been reported already
   };
-  std::vector<PartPlace> part_where;         ///< of each entry of model.parts
+  std::vector<PartPlace> part_where;                                   ///< of each entry of model.parts
   std::vector<std::pair<SourceLocation, std::string>> material_where;  ///< of each material: place and keyword
-  std::vector<Card> joint_where;             ///< first card of each joint
-  std::vector<Card> joint_references;        ///< joint stiffnesses that name a joint
-  std::optional<Card> mass_scaling;          ///< *CONTROL_TIMESTEP where DT2MS is not 0
+  std::vector<Card> joint_where;                                       ///< first card of each joint
+  std::vector<Card> joint_references;                                  ///< joint stiffnesses that name a joint
+  std::optional<Card> mass_scaling;                                    ///< *CONTROL_TIMESTEP where DT2MS is not 0
   CurveIndex constant_one = none;
 
  private:
@@ -197,8 +200,8 @@ void check_model(Builder&);
 
 /// Six tensor fields ixx … izz of a card.
 Mat3 read_inertia(const Card& card);
-/// The cards inertia0 … inertia3 of *PART_INERTIA and nodal rigid bodies: centre, tensor, velocities and, with IRCS = 1,
-/// axes. `frame_field` is the name of the coordinate system's field on the last one.
+/// The cards inertia0 … inertia3 of *PART_INERTIA and nodal rigid bodies: centre, tensor, velocities and, with IRCS =
+/// 1, axes. `frame_field` is the name of the coordinate system's field on the last one.
 GivenInertia read_given_inertia(Builder& builder, Block& block, const std::string& frame_field);
 /// CMO, CON1, CON2 and the point of *MAT_RIGID and *CONSTRAINED_NODAL_RIGID_BODY_SPC.
 struct BodyConstraint {

@@ -6,7 +6,9 @@
 
 namespace kardan::deck {
 
-void build_title(Builder& b, Block& block) { b.model.title = block.next_title(); }
+void build_title(Builder& b, Block& block) {
+  b.model.title = block.next_title();
+}
 
 namespace {
 
@@ -89,26 +91,30 @@ void read_bulk_viscosity(Builder& b, Block& block) {
 }  // namespace
 
 void build_control(Builder& b, Block& block) {
-  static const std::map<std::string, Handler> readers{
-      {"CONTROL_TERMINATION", read_termination}, {"CONTROL_TIMESTEP", read_time_step},
-      {"CONTROL_RIGID", read_rigid},             {"CONTROL_ENERGY", read_energy},
-      {"CONTROL_SHELL", read_shell},             {"CONTROL_HOURGLASS", read_hourglass},
-      {"CONTROL_BULK_VISCOSITY", read_bulk_viscosity}};
+  static const std::map<std::string, Handler> readers{{"CONTROL_TERMINATION", read_termination},
+                                                      {"CONTROL_TIMESTEP", read_time_step},
+                                                      {"CONTROL_RIGID", read_rigid},
+                                                      {"CONTROL_ENERGY", read_energy},
+                                                      {"CONTROL_SHELL", read_shell},
+                                                      {"CONTROL_HOURGLASS", read_hourglass},
+                                                      {"CONTROL_BULK_VISCOSITY", read_bulk_viscosity}};
   const auto reader = readers.find(block.keyword);
-  if (reader != readers.end()) reader->second(b, block);
-  else block.warning("this control is read but not honoured", "leave it out if its effect is wanted nowhere");
+  if (reader != readers.end())
+    reader->second(b, block);
+  else
+    block.warning("this control is read but not honoured", "leave it out if its effect is wanted nowhere");
 }
 
 namespace {
 
 const std::map<std::string, OutputFile>& files() {
   static const std::map<std::string, OutputFile> names{
-      {"GLSTAT", OutputFile::glstat},   {"MATSUM", OutputFile::matsum},   {"NODOUT", OutputFile::nodout},
-      {"RBDOUT", OutputFile::rbdout},   {"JNTFORC", OutputFile::jntforc}, {"BNDOUT", OutputFile::bndout},
-      {"SPCFORC", OutputFile::spcforc}, {"DEFORC", OutputFile::deforc},   {"ELOUT", OutputFile::elout},
-      {"RCFORC", OutputFile::rcforc},   {"SLEOUT", OutputFile::sleout},   {"RWFORC", OutputFile::rwforc},
-      {"SECFORC", OutputFile::secforc}, {"SWFORC", OutputFile::swforc},   {"NCFORC", OutputFile::ncforc},
-      {"ABSTAT", OutputFile::abstat},   {"NODFOR", OutputFile::nodfor},   {"BINARY_D3PLOT", OutputFile::d3plot},
+      {"GLSTAT", OutputFile::glstat},       {"MATSUM", OutputFile::matsum},   {"NODOUT", OutputFile::nodout},
+      {"RBDOUT", OutputFile::rbdout},       {"JNTFORC", OutputFile::jntforc}, {"BNDOUT", OutputFile::bndout},
+      {"SPCFORC", OutputFile::spcforc},     {"DEFORC", OutputFile::deforc},   {"ELOUT", OutputFile::elout},
+      {"RCFORC", OutputFile::rcforc},       {"SLEOUT", OutputFile::sleout},   {"RWFORC", OutputFile::rwforc},
+      {"SECFORC", OutputFile::secforc},     {"SWFORC", OutputFile::swforc},   {"NCFORC", OutputFile::ncforc},
+      {"ABSTAT", OutputFile::abstat},       {"NODFOR", OutputFile::nodfor},   {"BINARY_D3PLOT", OutputFile::d3plot},
       {"BINARY_D3THDT", OutputFile::d3thdt}};
   return names;
 }
@@ -155,11 +161,12 @@ void build_history(Builder& b, Block& block) {
     SetKind kind;
     ElementKind elements;
   };
-  const std::map<std::string, Target> targets{{"NODE", {&out.history_nodes, SetKind::node, ElementKind::shell}},
-                                              {"SHELL", {&out.history_shells, SetKind::shell, ElementKind::shell}},
-                                              {"SOLID", {&out.history_solids, SetKind::solid, ElementKind::solid}},
-                                              {"BEAM", {&out.history_beams, SetKind::beam, ElementKind::beam}},
-                                              {"DISCRETE", {&out.history_discrete, SetKind::discrete, ElementKind::discrete}}};
+  const std::map<std::string, Target> targets{
+      {"NODE", {&out.history_nodes, SetKind::node, ElementKind::shell}},
+      {"SHELL", {&out.history_shells, SetKind::shell, ElementKind::shell}},
+      {"SOLID", {&out.history_solids, SetKind::solid, ElementKind::solid}},
+      {"BEAM", {&out.history_beams, SetKind::beam, ElementKind::beam}},
+      {"DISCRETE", {&out.history_discrete, SetKind::discrete, ElementKind::discrete}}};
   const auto target = targets.find(kind);
   if (target == targets.end()) {
     block.warning("histories of these are not written");
@@ -171,16 +178,19 @@ void build_history(Builder& b, Block& block) {
     if (set) {
       const Index s = b.sets->reference(card, field, k);
       if (s == none) return;
-      const std::vector<Index>& members = k == SetKind::node ? b.model.node_sets[static_cast<std::size_t>(s)].nodes
-                                                             : b.model.element_sets[static_cast<std::size_t>(s)].elements;
+      const std::vector<Index>& members = k == SetKind::node
+                                              ? b.model.node_sets[static_cast<std::size_t>(s)].nodes
+                                              : b.model.element_sets[static_cast<std::size_t>(s)].elements;
       l->insert(l->end(), members.begin(), members.end());
     } else if (k == SetKind::node) {
       if (const NodeIndex n = b.node(card, field); n != none) l->push_back(n);
     } else {
       const UserId id = card.id(field, IdKind::element);
       const Index i = b.elements[static_cast<std::size_t>(e)].index(id);
-      if (i == none) card.error(field, "element " + std::to_string(id) + " is not defined", "take it out of the list");
-      else l->push_back(i);
+      if (i == none)
+        card.error(field, "element " + std::to_string(id) + " is not defined", "take it out of the list");
+      else
+        l->push_back(i);
     }
   };
   if (block.has("ID")) {

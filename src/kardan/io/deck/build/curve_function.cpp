@@ -21,15 +21,24 @@ struct CurveFunction::Node {
 
   double evaluate(double t) const {
     switch (kind) {
-      case Kind::number: return number;
-      case Kind::time: return t;
-      case Kind::negate: return -arguments[0].evaluate(t);
-      case Kind::add: return arguments[0].evaluate(t) + arguments[1].evaluate(t);
-      case Kind::subtract: return arguments[0].evaluate(t) - arguments[1].evaluate(t);
-      case Kind::multiply: return arguments[0].evaluate(t) * arguments[1].evaluate(t);
-      case Kind::divide: return arguments[0].evaluate(t) / arguments[1].evaluate(t);
-      case Kind::power: return std::pow(arguments[0].evaluate(t), arguments[1].evaluate(t));
-      case Kind::call: break;
+      case Kind::number:
+        return number;
+      case Kind::time:
+        return t;
+      case Kind::negate:
+        return -arguments[0].evaluate(t);
+      case Kind::add:
+        return arguments[0].evaluate(t) + arguments[1].evaluate(t);
+      case Kind::subtract:
+        return arguments[0].evaluate(t) - arguments[1].evaluate(t);
+      case Kind::multiply:
+        return arguments[0].evaluate(t) * arguments[1].evaluate(t);
+      case Kind::divide:
+        return arguments[0].evaluate(t) / arguments[1].evaluate(t);
+      case Kind::power:
+        return std::pow(arguments[0].evaluate(t), arguments[1].evaluate(t));
+      case Kind::call:
+        break;
     }
     Arguments values(arguments.size());
     std::transform(arguments.begin(), arguments.end(), values.begin(), [t](const Node& n) { return n.evaluate(t); });
@@ -76,8 +85,12 @@ double fourier(const Arguments& a) {  // FORSIN / FORCOS(x, x0, omega, a0, a1, .
   return sum;
 }
 
-double sine(double x) { return std::sin(x); }
-double cosine(double x) { return std::cos(x); }
+double sine(double x) {
+  return std::sin(x);
+}
+double cosine(double x) {
+  return std::cos(x);
+}
 
 struct Intrinsic {
   std::size_t least, most;
@@ -115,8 +128,8 @@ const std::map<std::string, Intrinsic>& intrinsics() {
       {"FORSIN", {4, any, fourier<sine>}},
       {"FORCOS", {4, any, fourier<cosine>}},
       {"SHF", {5, 6, [](const Arguments& a) {  // SHF(x, x0, a, omega, phi, b)
-         return a[2] * std::sin(a[3] * (a[0] - a[1]) - a[4]) + (a.size() > 5 ? a[5] : 0.0);
-       }}}};
+                 return a[2] * std::sin(a[3] * (a[0] - a[1]) - a[4]) + (a.size() > 5 ? a[5] : 0.0);
+               }}}};
   return table;
 }
 
@@ -159,9 +172,12 @@ class Parser {
     if (++depth_ > deepest) fail("the expression is nested too deeply");
     Node node = product();
     for (;;) {
-      if (take("+")) node = binary(Node::Kind::add, std::move(node), product());
-      else if (take("-")) node = binary(Node::Kind::subtract, std::move(node), product());
-      else break;
+      if (take("+"))
+        node = binary(Node::Kind::add, std::move(node), product());
+      else if (take("-"))
+        node = binary(Node::Kind::subtract, std::move(node), product());
+      else
+        break;
     }
     --depth_;
     return node;
@@ -169,16 +185,21 @@ class Parser {
   Node product() {
     Node node = signed_factor();
     for (;;) {
-      if (take("*")) node = binary(Node::Kind::multiply, std::move(node), signed_factor());
-      else if (take("/")) node = binary(Node::Kind::divide, std::move(node), signed_factor());
-      else return node;
+      if (take("*"))
+        node = binary(Node::Kind::multiply, std::move(node), signed_factor());
+      else if (take("/"))
+        node = binary(Node::Kind::divide, std::move(node), signed_factor());
+      else
+        return node;
     }
   }
   Node signed_factor() {
     bool minus = false;
     for (;;) {
-      if (take("-")) minus = !minus;
-      else if (!take("+")) break;
+      if (take("-"))
+        minus = !minus;
+      else if (!take("+"))
+        break;
     }
     Node node = primary();
     if (take("**")) {
@@ -236,8 +257,10 @@ class Parser {
     }
     Node node;
     if (id == "TIME" || id == "PI" || id == "DTOR" || id == "RTOD") {
-      if (id == "TIME") node.kind = Node::Kind::time;
-      else node.number = id == "PI" ? std::numbers::pi : (id == "DTOR" ? std::numbers::pi / 180 : 180 / std::numbers::pi);
+      if (id == "TIME")
+        node.kind = Node::Kind::time;
+      else
+        node.number = id == "PI" ? std::numbers::pi : (id == "DTOR" ? std::numbers::pi / 180 : 180 / std::numbers::pi);
       return node;
     }
     const auto known = intrinsics().find(id);
@@ -270,7 +293,9 @@ CurveFunction::CurveFunction(const std::string& text) : root_(std::make_unique<N
 CurveFunction::~CurveFunction() = default;
 CurveFunction::CurveFunction(CurveFunction&&) noexcept = default;
 CurveFunction& CurveFunction::operator=(CurveFunction&&) noexcept = default;
-double CurveFunction::operator()(double time) const { return root_->evaluate(time); }
+double CurveFunction::operator()(double time) const {
+  return root_->evaluate(time);
+}
 
 bool sample(const CurveFunction& f, double end, double tolerance, std::size_t limit, Curve& curve) {
   constexpr int start_intervals = 64;  // so that a short pulse is not stepped over

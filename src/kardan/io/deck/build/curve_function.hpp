@@ -19,9 +19,9 @@ class CurveFunctionError : public std::runtime_error {
   bool solver_variable;  ///< a function of the solution (displacement, force, sensor), not a slip of the pen
 };
 
-/// A parsed expression: + - * / **, parentheses, TIME, PI, DTOR, RTOD and the intrinsic functions ABS AINT ANINT MOD SIGN
-/// MAX MIN SQRT EXP LOG LOG10 SIN COS TAN ASIN ACOS ATAN ATAN2 SINH COSH TANH IF STEP HAVSIN POLY CHEBY FORSIN FORCOS SHF
-/// (arguments in the order of the LS-DYNA manual, *DEFINE_CURVE_FUNCTION).
+/// A parsed expression: + - * / **, parentheses, TIME, PI, DTOR, RTOD and the intrinsic functions ABS AINT ANINT MOD
+/// SIGN MAX MIN SQRT EXP LOG LOG10 SIN COS TAN ASIN ACOS ATAN ATAN2 SINH COSH TANH IF STEP HAVSIN POLY CHEBY FORSIN
+/// FORCOS SHF (arguments in the order of the LS-DYNA manual, *DEFINE_CURVE_FUNCTION).
 class CurveFunction {
  public:
   /// Throws CurveFunctionError.

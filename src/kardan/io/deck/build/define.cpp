@@ -13,8 +13,12 @@ namespace kardan::deck {
 
 namespace {
 
-std::string title_of(Block& block) { return block.has("TITLE") ? block.next_title() : std::string(); }
-double or_one(double factor) { return factor == 0 ? 1.0 : factor; }
+std::string title_of(Block& block) {
+  return block.has("TITLE") ? block.next_title() : std::string();
+}
+double or_one(double factor) {
+  return factor == 0 ? 1.0 : factor;
+}
 
 /// Reports what a curve's head asks for and Kardan does not do.
 void check_curve_head(Builder& b, const Block& block, const Card& card) {
@@ -23,8 +27,10 @@ void check_curve_head(Builder& b, const Block& block, const Card& card) {
   }
   const IncludeContext& context = block.context();
   if (context.mass != 1 || context.length != 1 || context.time != 1) {
-    b.unsupported(block, "unit factors of *INCLUDE_TRANSFORM on a curve are not available: the units of its values depend "
-                  "on who uses it", "move the curve to the main deck in its units");
+    b.unsupported(block,
+                  "unit factors of *INCLUDE_TRANSFORM on a curve are not available: the units of its values depend "
+                  "on who uses it",
+                  "move the curve to the main deck in its units");
   }
 }
 
@@ -54,7 +60,8 @@ void put_in_order(const Card& card, Curve& curve) {
     points[i].first = std::max(points[i - 1].first + step, std::nextafter(points[i - 1].first, INFINITY));
     jump = true;
   }
-  if (jump) warn("two points have one abscissa; the jump is spread over 1e-9 of the curve's range", "give two abscissae");
+  if (jump)
+    warn("two points have one abscissa; the jump is spread over 1e-9 of the curve's range", "give two abscissae");
   curve.x.resize(points.size());
   curve.y.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) std::tie(curve.x[i], curve.y[i]) = points[i];
@@ -70,7 +77,8 @@ bool frame_axes(const Vec3& x, const Vec3& in_plane, Mat3& axes) {
 }
 
 void add_frame(Builder& b, const Card& card, Frame frame) {
-  if (b.frames.enter(card, "cid", static_cast<Index>(b.model.frames.size()))) b.model.frames.push_back(std::move(frame));
+  if (b.frames.enter(card, "cid", static_cast<Index>(b.model.frames.size())))
+    b.model.frames.push_back(std::move(frame));
 }
 
 }  // namespace
@@ -90,7 +98,8 @@ void build_curve(Builder& b, Block& block) {
   });
   if (!any_order) put_in_order(card, curve);
   if (curve.x.empty()) {
-    card.error("lcid", "curve " + std::to_string(curve.id) + " has no points", "give at least one line of abscissa and ordinate");
+    card.error("lcid", "curve " + std::to_string(curve.id) + " has no points",
+               "give at least one line of abscissa and ordinate");
     curve.x = {0.0};
     curve.y = {0.0};
   }
@@ -104,7 +113,7 @@ void build_curve(Builder& b, Block& block) {
 }
 
 void build_curve_function(Builder& b, Block& block) {
-  constexpr double tolerance = 1e-7;        // of the largest value; straight lines are exact
+  constexpr double tolerance = 1e-7;  // of the largest value; straight lines are exact
   constexpr std::size_t most_points = 1u << 18;
   Curve curve;
   curve.title = title_of(block);
@@ -126,22 +135,32 @@ void build_curve_function(Builder& b, Block& block) {
   try {
     const CurveFunction f(text);
     if (!(end > 0)) {
-      card.error("lcid", "the function of time cannot be sampled: the run has no end time", "give ENDTIM in *CONTROL_TERMINATION");
+      card.error("lcid", "the function of time cannot be sampled: the run has no end time",
+                 "give ENDTIM in *CONTROL_TERMINATION");
     } else if (!sample(f, std::max(end / sfa - offa, 0.0), tolerance, most_points, curve)) {
-      b.diagnostics.error("curve " + std::to_string(curve.id) + ": the function is not finite everywhere up to the end time, or "
-                          "needs more than 262144 points", "write it as *DEFINE_CURVE", block.as_written(), where);
+      b.diagnostics.error("curve " + std::to_string(curve.id) +
+                              ": the function is not finite everywhere up to the end time, or "
+                              "needs more than 262144 points",
+                          "write it as *DEFINE_CURVE", block.as_written(), where);
     }
   } catch (const CurveFunctionError& error) {
     where.column = static_cast<int>(error.position) + 1;
-    Diagnostic d{Severity::error, where, block.as_written(), "FUNCTION", error.what(),
+    Diagnostic d{Severity::error,
+                 where,
+                 block.as_written(),
+                 "FUNCTION",
+                 error.what(),
                  error.solver_variable ? "functions of the solution are not available; give a function of TIME"
                                        : "correct the expression"};
-    if (error.solver_variable) b.model.unsupported.push_back(d);
-    else b.diagnostics.add(d);
+    if (error.solver_variable)
+      b.model.unsupported.push_back(d);
+    else
+      b.diagnostics.add(d);
   }
   for (double& x : curve.x) x = sfa * (x + offa);
   for (double& y : curve.y) y = sfo * (y + offo);
-  if (b.curves.enter(card, "lcid", static_cast<CurveIndex>(b.model.curves.size()))) b.model.curves.push_back(std::move(curve));
+  if (b.curves.enter(card, "lcid", static_cast<CurveIndex>(b.model.curves.size())))
+    b.model.curves.push_back(std::move(curve));
 }
 
 void build_table(Builder& b, Block& block) {
@@ -160,8 +179,9 @@ void build_table(Builder& b, Block& block) {
     }
     const auto following = next < end ? b.curve_of_block.find(next) : b.curve_of_block.end();
     if (following == b.curve_of_block.end()) {
-      line.error("value", "no curve belongs to this value of table " + std::to_string(table.id),
-                 "let as many *DEFINE_CURVE follow the table as it has values, or name the curves in the second column");
+      line.error(
+          "value", "no curve belongs to this value of table " + std::to_string(table.id),
+          "let as many *DEFINE_CURVE follow the table as it has values, or name the curves in the second column");
       table.curve.push_back(none);
     } else {
       table.curve.push_back(following->second);
@@ -169,10 +189,12 @@ void build_table(Builder& b, Block& block) {
     }
   });
   if (!std::is_sorted(table.parameter.begin(), table.parameter.end())) {
-    card.error("tbid", "the values of table " + std::to_string(table.id) + " do not ascend", "sort them with their curves");
+    card.error("tbid", "the values of table " + std::to_string(table.id) + " do not ascend",
+               "sort them with their curves");
   }
   if (b.curves.find(table.id) != none) {
-    card.error("tbid", "the number " + std::to_string(table.id) + " is a curve's already", "curves and tables share their numbers");
+    card.error("tbid", "the number " + std::to_string(table.id) + " is a curve's already",
+               "curves and tables share their numbers");
   } else if (b.tables.enter(card, "tbid", static_cast<Index>(b.model.tables.size()))) {
     b.model.tables.push_back(std::move(table));
   }
@@ -209,7 +231,8 @@ void build_coordinate_nodes(Builder& b, Block& block) {
     frame.nodes = {b.node(card, "n1"), b.node(card, "n2"), b.node(card, "n3")};
     frame.moves = b.integer_in(card, "flag", 0, 1) == 1;
     const std::string direction = card.text("dir");
-    const char letter = direction.empty() ? 'X' : static_cast<char>(std::toupper(static_cast<unsigned char>(direction[0])));
+    const char letter =
+        direction.empty() ? 'X' : static_cast<char>(std::toupper(static_cast<unsigned char>(direction[0])));
     if (letter < 'X' || letter > 'Z' || direction.size() > 1) {
       card.error("dir", "found " + direction + ", expected X, Y or Z", "correct the axis");
     } else {
@@ -225,8 +248,9 @@ void build_coordinate_nodes(Builder& b, Block& block) {
                    "name a third node beside the axis");
       }
       const Vec3 first = axes.column(0), second = axes.column(1), third = axes.column(2);
-      frame.axes = frame.axis == 1 ? axes
-                                   : (frame.axis == 2 ? Mat3::columns(third, first, second) : Mat3::columns(second, third, first));
+      frame.axes = frame.axis == 1
+                       ? axes
+                       : (frame.axis == 2 ? Mat3::columns(third, first, second) : Mat3::columns(second, third, first));
     }
     add_frame(b, card, std::move(frame));
   }
@@ -317,7 +341,8 @@ void build_box(Builder& b, Block& block) {
     }
     for (std::size_t i = 0; i < 3; ++i) {
       if (box.low[i] > box.high[i]) {
-        card.error(i == 0 ? "xmx" : (i == 1 ? "ymx" : "zmx"), "the box's upper bound lies below its lower bound", "exchange them");
+        card.error(i == 0 ? "xmx" : (i == 1 ? "ymx" : "zmx"), "the box's upper bound lies below its lower bound",
+                   "exchange them");
       }
     }
     if (b.boxes.enter(card, "boxid", static_cast<Index>(b.box_list.size()))) b.box_list.push_back(box);

@@ -17,21 +17,20 @@ struct JointRow {
 };
 
 const std::map<std::string, JointRow>& joint_rows() {
-  static const std::map<std::string, JointRow> rows{
-      {"SPHERICAL", {JointKind::spherical, 2}},
-      {"REVOLUTE", {JointKind::revolute, 4}},
-      {"CYLINDRICAL", {JointKind::cylindrical, 4}},
-      {"PLANAR", {JointKind::planar, 4}},
-      {"UNIVERSAL", {JointKind::universal, 4}},
-      {"TRANSLATIONAL", {JointKind::translational, 6}},
-      {"LOCKING", {JointKind::locking, 6}},
-      {"TRANSLATIONAL_MOTOR", {JointKind::translational_motor, 4}},
-      {"ROTATIONAL_MOTOR", {JointKind::rotational_motor, 4}},
-      {"GEARS", {JointKind::gears, 4}},
-      {"RACK_AND_PINION", {JointKind::rack_and_pinion, 4}},
-      {"CONSTANT_VELOCITY", {JointKind::constant_velocity, 4}},
-      {"PULLEY", {JointKind::pulley, 4}},
-      {"SCREW", {JointKind::screw, 4}}};
+  static const std::map<std::string, JointRow> rows{{"SPHERICAL", {JointKind::spherical, 2}},
+                                                    {"REVOLUTE", {JointKind::revolute, 4}},
+                                                    {"CYLINDRICAL", {JointKind::cylindrical, 4}},
+                                                    {"PLANAR", {JointKind::planar, 4}},
+                                                    {"UNIVERSAL", {JointKind::universal, 4}},
+                                                    {"TRANSLATIONAL", {JointKind::translational, 6}},
+                                                    {"LOCKING", {JointKind::locking, 6}},
+                                                    {"TRANSLATIONAL_MOTOR", {JointKind::translational_motor, 4}},
+                                                    {"ROTATIONAL_MOTOR", {JointKind::rotational_motor, 4}},
+                                                    {"GEARS", {JointKind::gears, 4}},
+                                                    {"RACK_AND_PINION", {JointKind::rack_and_pinion, 4}},
+                                                    {"CONSTANT_VELOCITY", {JointKind::constant_velocity, 4}},
+                                                    {"PULLEY", {JointKind::pulley, 4}},
+                                                    {"SCREW", {JointKind::screw, 4}}};
   return rows;
 }
 
@@ -51,8 +50,10 @@ void read_joint_nodes(Builder& b, const Card& card, const JointRow& row, Joint& 
   }
   for (std::size_t i = 0; i < 6; i += 2) {
     if (joint.nodes[i] != none && joint.nodes[i] == joint.nodes[i + 1]) {
-      card.error(node_fields[i + 1], "node " + std::to_string(b.model.nodes.id[static_cast<std::size_t>(joint.nodes[i])]) +
-                 " is named for both bodies", "a joint needs two nodes at one place, one of each body");
+      card.error(node_fields[i + 1],
+                 "node " + std::to_string(b.model.nodes.id[static_cast<std::size_t>(joint.nodes[i])]) +
+                     " is named for both bodies",
+                 "a joint needs two nodes at one place, one of each body");
     }
   }
   joint.rps = Builder::real_or(card, "rps", 1.0);
@@ -88,8 +89,8 @@ void read_joint_parameters(Builder& b, const Card& card, Joint& joint) {
     b.ignored(card, "lcid", "only motors are driven by a curve");
   }
   b.refuse_nonzero(card, "h_angle", "a helix angle between gears", "leave it at 0");
-  const bool needs_ratio = joint.kind == JointKind::gears || joint.kind == JointKind::pulley || joint.kind == JointKind::screw ||
-                           joint.kind == JointKind::rack_and_pinion;
+  const bool needs_ratio = joint.kind == JointKind::gears || joint.kind == JointKind::pulley ||
+                           joint.kind == JointKind::screw || joint.kind == JointKind::rack_and_pinion;
   if (needs_ratio && joint.parameter == 0) {
     card.error("parm", "is blank or 0, expected the joint's ratio (R2/R1, h, or the helix ratio)", "give PARM");
   }
@@ -125,14 +126,17 @@ void build_joint(Builder& b, Block& block) {
     const Card head = block.next_if(block.has("ID"), "id");
     const Card card = block.next("card0");
     if (!card.present()) return;
-    if (coordinates) read_joint_points(b, block, card, row->second, joint);
-    else read_joint_nodes(b, card, row->second, joint);
+    if (coordinates)
+      read_joint_points(b, block, card, row->second, joint);
+    else
+      read_joint_nodes(b, card, row->second, joint);
     if (block.info->find_card("card1") != nullptr) read_joint_parameters(b, block.next("card1"), joint);
     if (block.has("LOCAL")) {
       const Card local = block.next("local");
       joint.local_system = b.integer_in(local, "lst", 0, 1);
       if (joint.local_system == 1) {
-        b.unsupported(local, "lst", "an accelerometer as the joint's output system is not available", "name a rigid body with LST = 0");
+        b.unsupported(local, "lst", "an accelerometer as the joint's output system is not available",
+                      "name a rigid body with LST = 0");
       } else {
         joint.local_body = b.body(local, "raid");
       }
@@ -165,31 +169,30 @@ struct StiffnessRow {
   std::array<bool, 3> angle;
 };
 
-constexpr std::array<StiffnessRow, 4> stiffness_rows{
-    {{"GENERALIZED",
-      JointStiffnessKind::generalized,
-      {{{"lcidph", "dlcidph", "esph", "fmph", "nsaph", "psaph"},
-        {"lcidt", "dlcidt", "est", "fmt", "nsat", "psat"},
-        {"lcidps", "dlcidps", "esps", "fmps", "nsaps", "psaps"}}},
-      {true, true, true}},
-     {"FLEXION-TORSION",
-      JointStiffnessKind::flexion_torsion,
-      {{{"lcidal", "dlcidal", "esal", "fmal", nullptr, "saal"},
-        {nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},
-        {"lcidbt", "dlcidbt", "esbt", "fmbt", "nsabt", "psabt"}}},
-      {true, true, true}},
-     {"TRANSLATIONAL",
-      JointStiffnessKind::translational,
-      {{{"lcidx", "dlcidx", "esx", "ffx", "nsdx", "psdx"},
-        {"lcidy", "dlcidy", "esy", "ffy", "nsdy", "psdy"},
-        {"lcidz", "dlcidz", "esz", "ffz", "nsdz", "psdz"}}},
-      {false, false, false}},
-     {"CYLINDRICAL",
-      JointStiffnessKind::cylindrical,
-      {{{"lcidr", "dlcidr", "esr", "ffr", nullptr, "psdr"},
-        {nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},
-        {"lcidz", "dlcidz", "esz", "ffz", "nsdz", "psdz"}}},
-      {false, false, false}}}};
+constexpr std::array<StiffnessRow, 4> stiffness_rows{{{"GENERALIZED",
+                                                       JointStiffnessKind::generalized,
+                                                       {{{"lcidph", "dlcidph", "esph", "fmph", "nsaph", "psaph"},
+                                                         {"lcidt", "dlcidt", "est", "fmt", "nsat", "psat"},
+                                                         {"lcidps", "dlcidps", "esps", "fmps", "nsaps", "psaps"}}},
+                                                       {true, true, true}},
+                                                      {"FLEXION-TORSION",
+                                                       JointStiffnessKind::flexion_torsion,
+                                                       {{{"lcidal", "dlcidal", "esal", "fmal", nullptr, "saal"},
+                                                         {nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},
+                                                         {"lcidbt", "dlcidbt", "esbt", "fmbt", "nsabt", "psabt"}}},
+                                                       {true, true, true}},
+                                                      {"TRANSLATIONAL",
+                                                       JointStiffnessKind::translational,
+                                                       {{{"lcidx", "dlcidx", "esx", "ffx", "nsdx", "psdx"},
+                                                         {"lcidy", "dlcidy", "esy", "ffy", "nsdy", "psdy"},
+                                                         {"lcidz", "dlcidz", "esz", "ffz", "nsdz", "psdz"}}},
+                                                       {false, false, false}},
+                                                      {"CYLINDRICAL",
+                                                       JointStiffnessKind::cylindrical,
+                                                       {{{"lcidr", "dlcidr", "esr", "ffr", nullptr, "psdr"},
+                                                         {nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},
+                                                         {"lcidz", "dlcidz", "esz", "ffz", "nsdz", "psdz"}}},
+                                                       {false, false, false}}}};
 
 JointStiffness::Coordinate read_coordinate(Builder& b, const std::array<Card, 3>& cards, const CoordinateFields& f,
                                            bool angle) {
@@ -204,7 +207,8 @@ JointStiffness::Coordinate read_coordinate(Builder& b, const std::array<Card, 3>
     // FM < 0: the limit is curve |FM| of the angle (a table of angle and joint force where a JID is given).
     const UserId id = std::llround(-limit) + cards[1].block().context().offset[static_cast<std::size_t>(IdKind::curve)];
     if (b.tables.find(id) != none) {
-      b.unsupported(cards[1], f.friction, "a table of friction limits against the joint's force is not available", "name a curve");
+      b.unsupported(cards[1], f.friction, "a table of friction limits against the joint's force is not available",
+                    "name a curve");
     } else {
       c.friction_curve = b.curve_of_id(cards[1], f.friction, id);
     }
@@ -235,7 +239,8 @@ void build_joint_stiffness(Builder& b, Block& block) {
     if (block.has("TITLE")) block.next_title();
     const Card card = block.next("card0");
     if (!card.present()) return;
-    const std::array<Card, 3> cards{block.next_optional("card1"), block.next_optional("card2"), block.next_optional("card3")};
+    const std::array<Card, 3> cards{block.next_optional("card1"), block.next_optional("card2"),
+                                    block.next_optional("card3")};
     JointStiffness s;
     s.kind = row->kind;
     s.id = card.id("jsid", IdKind::other);
@@ -257,14 +262,18 @@ void build_joint_stiffness(Builder& b, Block& block) {
         c.dynamic_coefficient = cards[2].real("fd");
       }
       if (cards[2].real("fs") != 0 || cards[2].real("fd") != 0) {
-        b.unsupported(cards[2], "fs", "friction from the joint's force is not available", "give the limits FFX, FFY, FFZ");
+        b.unsupported(cards[2], "fs", "friction from the joint's force is not available",
+                      "give the limits FFX, FFY, FFZ");
       }
     }
     if (s.kind == JointStiffnessKind::cylindrical) {
-      for (const char* field : {"dlcidp", "lcidt", "dlcidt"}) b.refuse_nonzero(cards[0], field, "this curve of the cylindrical stiffness", "leave it at 0");
-      for (const char* field : {"rad1", "rad2"}) b.refuse_nonzero(cards[1], field, "a radius of the cylindrical stiffness", "leave it at 0");
+      for (const char* field : {"dlcidp", "lcidt", "dlcidt"})
+        b.refuse_nonzero(cards[0], field, "this curve of the cylindrical stiffness", "leave it at 0");
+      for (const char* field : {"rad1", "rad2"})
+        b.refuse_nonzero(cards[1], field, "a radius of the cylindrical stiffness", "leave it at 0");
     }
-    if (s.part_a != none && s.part_a == s.part_b) card.error("pidb", "both bodies are the same part", "name two bodies");
+    if (s.part_a != none && s.part_a == s.part_b)
+      card.error("pidb", "both bodies are the same part", "name two bodies");
     if (b.joint_stiffness_ids.enter(card, "jsid", static_cast<Index>(b.model.joint_stiffnesses.size()))) {
       b.model.joint_stiffnesses.push_back(std::move(s));
     }

@@ -10,7 +10,9 @@ namespace kardan::deck {
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Nodes of a field: one node, or those of a set.
 std::vector<NodeIndex> nodes_of(Builder& b, const Card& card, std::string_view field, bool set) {
@@ -57,8 +59,11 @@ int motion_dof(const Card& card, bool rigid) {
   const std::int64_t dof = card.integer("dof"), size = std::abs(dof);
   const bool negative_allowed = size == 4 || size == 8 || size >= 9;
   if (size < 1 || size > 11 || (dof < 0 && !negative_allowed)) {
-    card.error("dof", "found " + std::to_string(dof) + ", expected 1-3 or 5-7 (axes), 4 or 8 with VID, or 9-11 (nodes only), "
-               "4 and 8 to 11 also negative", "correct the degree of freedom");
+    card.error("dof",
+               "found " + std::to_string(dof) +
+                   ", expected 1-3 or 5-7 (axes), 4 or 8 with VID, or 9-11 (nodes only), "
+                   "4 and 8 to 11 also negative",
+               "correct the degree of freedom");
     return 0;
   }
   if (rigid && size >= 9) {
@@ -88,8 +93,10 @@ void build_prescribed_motion(Builder& b, Block& block) {
     const Card card = block.next("card0");
     if (!card.present()) return;
     if (head.present()) motion.id = head.id("id", IdKind::other);
-    if (rigid) motion.body_part = b.body(card, "typeid");
-    else motion.nodes = nodes_of(b, card, "typeid", set);
+    if (rigid)
+      motion.body_part = b.body(card, "typeid");
+    else
+      motion.nodes = nodes_of(b, card, "typeid", set);
     motion.local = block.has("LOCAL");
     motion.dof = motion_dof(card, rigid);
     motion.kind = static_cast<MotionKind>(b.integer_in(card, "vad", 0, 4));
@@ -101,7 +108,8 @@ void build_prescribed_motion(Builder& b, Block& block) {
       card.warning("death", "is not later than the birth time: the motion never acts", "correct BIRTH or DEATH");
     }
     const int size = std::abs(motion.dof);
-    if (!rigid && (motion.kind == MotionKind::velocity_versus_displacement || motion.kind == MotionKind::relative_displacement)) {
+    if (!rigid &&
+        (motion.kind == MotionKind::velocity_versus_displacement || motion.kind == MotionKind::relative_displacement)) {
       card.error("vad", "found " + card.text("vad") + ", which is for rigid bodies only", "use 0, 1 or 2");
     }
     if (size == 4 || size == 8) {
@@ -131,7 +139,8 @@ void build_initial_velocity(Builder& b, Block& block) {
         const Box& bounds = b.box_list[at(i)];
         const auto outside = [&](NodeIndex n) {
           const Vec3& x = b.model.nodes.x[at(n)];
-          for (std::size_t k = 0; k < 3; ++k) if (x[k] < bounds.low[k] || x[k] > bounds.high[k]) return true;
+          for (std::size_t k = 0; k < 3; ++k)
+            if (x[k] < bounds.low[k] || x[k] > bounds.high[k]) return true;
           return false;
         };
         if (set == 0) {
@@ -158,7 +167,8 @@ void build_initial_velocity(Builder& b, Block& block) {
     } else if (irigid == -2) {
       for (const NodalRigidBody& body : b.model.nodal_rigid_bodies) v.override_parts.push_back(body.part);
     } else if (irigid < -2) {
-      card.error("irigid", "found " + std::to_string(irigid) + ", expected -2, -1, 0 or a part set", "correct the value");
+      card.error("irigid", "found " + std::to_string(irigid) + ", expected -2, -1, 0 or a part set",
+                 "correct the value");
     }
     b.model.initial_velocities.push_back(std::move(v));
   }
@@ -239,7 +249,8 @@ void build_body_load_parts(Builder& b, Block& block) {
 
 void build_body_load(Builder& b, Block& block) {
   static constexpr std::array<std::string_view, 7> axes{"X", "Y", "Z", "RX", "RY", "RZ", "VECTOR"};
-  const auto axis = std::find(axes.begin(), axes.end(), std::string_view(block.keyword).substr(std::string_view("LOAD_BODY_").size()));
+  const auto axis = std::find(axes.begin(), axes.end(),
+                              std::string_view(block.keyword).substr(std::string_view("LOAD_BODY_").size()));
   if (axis == axes.end()) {
     b.unsupported(block, "a body load of this kind is not available", "use *LOAD_BODY_X … RZ with *LOAD_BODY_PARTS");
     return;
@@ -266,8 +277,10 @@ void build_point_load(Builder& b, Block& block) {
   const bool rigid = block.keyword == "LOAD_RIGID_BODY", set = block.keyword.ends_with("_SET");
   block.for_each("card0", [&](const Card& card) {
     PointLoad load;
-    if (rigid) load.body_part = b.body(card, "pid");
-    else load.nodes = nodes_of(b, card, set ? "nsid" : "nid", set);
+    if (rigid)
+      load.body_part = b.body(card, "pid");
+    else
+      load.nodes = nodes_of(b, card, set ? "nsid" : "nid", set);
     load.dof = b.integer_in(card, "dof", 1, 8);
     if (card.id("lcid", IdKind::curve) < 0) {
       b.unsupported(card, "lcid", "a load against the displacement (LCID < 0) is not available", "use a spring");

@@ -13,8 +13,10 @@ namespace {
 int digits_to_dofs(std::int64_t code) {
   int bits = 0;
   for (int i = 5; i >= 0; --i, code /= 10) {
-    if (code % 10 == 1) bits |= 1 << i;
-    else if (code % 10 != 0) return -1;
+    if (code % 10 == 1)
+      bits |= 1 << i;
+    else if (code % 10 != 0)
+      return -1;
   }
   return code == 0 ? bits : -1;
 }
@@ -72,8 +74,11 @@ RigidMaterial read_rigid(Builder& b, Block& block, const Card& card) {
   const double first = local.real("lco_or_a1");
   const bool alone = norm(m.v) == 0 && local.real("a2") == 0 && local.real("a3") == 0;
   if (alone && first != 0) {
-    if (first > 0 && first == std::floor(first)) m.output_frame = b.reference(local, "lco_or_a1", b.frames);
-    else local.error("lco_or_a1", "found " + local.text("lco_or_a1") + ", expected a coordinate system", "name one, or give A and V");
+    if (first > 0 && first == std::floor(first))
+      m.output_frame = b.reference(local, "lco_or_a1", b.frames);
+    else
+      local.error("lco_or_a1", "found " + local.text("lco_or_a1") + ", expected a coordinate system",
+                  "name one, or give A and V");
     m.a = {};
   }
   return m;
@@ -86,9 +91,11 @@ ElasticMaterial read_elastic(const Card& card) {
   m.poissons_ratio = card.real("pr");
   m.da = card.real("da");
   m.db = card.real("db");
-  if (m.youngs_modulus <= 0) card.error("e", "found " + card.text("e") + ", expected a positive modulus", "give Young's modulus");
+  if (m.youngs_modulus <= 0)
+    card.error("e", "found " + card.text("e") + ", expected a positive modulus", "give Young's modulus");
   if (m.poissons_ratio <= -1 || m.poissons_ratio >= 0.5) {
-    card.error("pr", "found " + card.text("pr") + ", expected a Poisson's ratio between -1 and 0.5", "correct the value");
+    card.error("pr", "found " + card.text("pr") + ", expected a Poisson's ratio between -1 and 0.5",
+               "correct the value");
   }
   return m;
 }
@@ -119,8 +126,10 @@ SpringMaterial read_spring(Builder& b, const Block& block, const Card& card, con
   m.law = layout.law;
   const IncludeContext& context = block.context();
   if (context.mass != 1 || context.length != 1 || context.time != 1) {
-    b.unsupported(block, "unit factors of *INCLUDE_TRANSFORM on a spring or damper are not available: whether it is "
-                  "translational or torsional is not known here", "convert the include's units before");
+    b.unsupported(block,
+                  "unit factors of *INCLUDE_TRANSFORM on a spring or damper are not available: whether it is "
+                  "translational or torsional is not known here",
+                  "convert the include's units before");
   }
   for (std::size_t i = 0; i < layout.reals.size(); ++i) {
     if (layout.reals[i] != nullptr) m.p[i] = card.real(layout.reals[i]);
@@ -155,10 +164,14 @@ void build_material(Builder& b, Block& block) {
     const Card card = block.next("card0");
     if (!card.present()) return;
     material.id = card.id("mid", IdKind::material);
-    if (rigid) material.law = read_rigid(b, block, card);
-    else if (elastic) material.law = read_elastic(card);
-    else if (known) material.law = read_spring(b, block, card, spring->second);
-    else material.law = read_unsupported(block, card);
+    if (rigid)
+      material.law = read_rigid(b, block, card);
+    else if (elastic)
+      material.law = read_elastic(card);
+    else if (known)
+      material.law = read_spring(b, block, card, spring->second);
+    else
+      material.law = read_unsupported(block, card);
     if (b.materials.enter(card, "mid", static_cast<Index>(b.model.materials.size()))) {
       b.material_where.push_back({card.where(), block.as_written()});
       b.model.materials.push_back(std::move(material));

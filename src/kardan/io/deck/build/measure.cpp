@@ -11,10 +11,13 @@ namespace kardan::deck {
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
 
 bool complete(const auto& nodes, std::size_t needed) {
-  return std::all_of(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(needed), [](NodeIndex n) { return n != none; });
+  return std::all_of(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(needed),
+                     [](NodeIndex n) { return n != none; });
 }
 
 double shell_thickness(const Model& model, Index e) {
@@ -47,7 +50,8 @@ void for_each_mass(const Model& model, F&& f) {
     const double per_area = section == none ? 0.0 : model.sections[at(section)].shell.mass_per_area;
     const auto i = static_cast<Index>(e);
     const auto& n = model.shells.nodes[e];
-    f(p, shell_area(model, i) * (part_density(p) * shell_thickness(model, i) + per_area), n.data(), n[3] == n[2] ? 3 : 4);
+    f(p, shell_area(model, i) * (part_density(p) * shell_thickness(model, i) + per_area), n.data(),
+      n[3] == n[2] ? 3 : 4);
   }
   for (std::size_t e = 0; e < model.solids.size(); ++e) {
     const PartIndex p = model.solids.part[e];
@@ -77,6 +81,10 @@ double shell_area(const Model& model, Index element) {
 double solid_volume(const Model& model, Index element) {
   const auto& n = model.solids.nodes[at(element)];
   const auto& x = model.nodes.x;
+  if (n[4] == n[3] && n[5] == n[3] && n[6] == n[3] && n[7] == n[3]) {  // tetrahedron: the "face" 1-2-3-4 is not flat
+    const Vec3 o = x[at(n[0])];
+    return dot(x[at(n[1])] - o, cross(x[at(n[2])] - o, x[at(n[3])] - o)) / 6;
+  }
   // The surface as triangles, each quadrilateral cut both ways and averaged; divergence theorem about node 1.
   static constexpr std::array<std::array<std::size_t, 4>, 6> faces{
       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
@@ -99,8 +107,10 @@ double density(const Model& model, Index material) {
   if (material == none) return 0;
   return std::visit(
       [](const auto& law) {
-        if constexpr (requires { law.density; }) return law.density;
-        else return 0.0;
+        if constexpr (requires { law.density; })
+          return law.density;
+        else
+          return 0.0;
       },
       model.materials[at(material)].law);
 }

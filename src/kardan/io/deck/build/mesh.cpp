@@ -13,9 +13,13 @@ namespace {
 /// Dof bits of the codes 0-7 of TC and RC: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 xyz.
 constexpr std::array<std::uint8_t, 8> code_bits{0, 1, 2, 4, 3, 6, 5, 7};
 
-std::string id_text(UserId id) { return std::to_string(id); }
+std::string id_text(UserId id) {
+  return std::to_string(id);
+}
 
-std::size_t kind_index(ElementKind kind) { return static_cast<std::size_t>(kind); }
+std::size_t kind_index(ElementKind kind) {
+  return static_cast<std::size_t>(kind);
+}
 
 constexpr int first_node = 2;  // field of N1 on the element cards
 
@@ -34,7 +38,8 @@ class ElementLine {
       return false;
     }
     if (!builder_.elements[kind_index(kind_)].emplace(id_, index).second) {
-      card.error("eid", std::string(what_) + " " + id_text(id_) + " is defined twice", "give each element its own number");
+      card.error("eid", std::string(what_) + " " + id_text(id_) + " is defined twice",
+                 "give each element its own number");
       return false;
     }
     if (part_ == none && missing_parts_.insert(pid).second) {
@@ -54,9 +59,9 @@ class ElementLine {
   }
 
   void repeated(const Card& card, NodeIndex n) {
-    card.error_on_card("node " + id_text(builder_.model.nodes.id[static_cast<std::size_t>(n)]) + " is repeated in " + what_ + " " +
-                   id_text(id_),
-               "correct the connectivity");
+    card.error_on_card("node " + id_text(builder_.model.nodes.id[static_cast<std::size_t>(n)]) + " is repeated in " +
+                           what_ + " " + id_text(id_),
+                       "correct the connectivity");
   }
   void absent(const Card& card, const char* field) {
     card.error(field, std::string("is blank or 0 in ") + what_ + " " + id_text(id_) + ", expected a node");
@@ -91,8 +96,10 @@ bool add_shell(Builder& b, ElementLine& line, const Card& card) {
   }
   const bool all = n[0] != none && n[1] != none && n[2] != none && n[3] != none;
   if (all) {
-    if (n[0] == n[1] || n[0] == n[2] || n[0] == n[3]) line.repeated(card, n[0]);
-    else if (n[1] == n[2] || n[1] == n[3]) line.repeated(card, n[1]);
+    if (n[0] == n[1] || n[0] == n[2] || n[0] == n[3])
+      line.repeated(card, n[0]);
+    else if (n[1] == n[2] || n[1] == n[3])
+      line.repeated(card, n[1]);
   }
   for (int i = 4; i < 8; ++i) {
     if (card.id(first_node + i, IdKind::node) != 0) {
@@ -122,10 +129,11 @@ void add_solid(Builder& b, ElementLine& line, const Card& card, const std::array
   std::sort(corners.begin(), corners.end());
   const auto distinct = std::unique(corners.begin(), corners.end()) - corners.begin();
   if (corners[0] == none) {
-    card.error_on_card("solid " + id_text(line.id()) + " has fewer than four nodes that exist", "correct the connectivity");
+    card.error_on_card("solid " + id_text(line.id()) + " has fewer than four nodes that exist",
+                       "correct the connectivity");
   } else if (distinct < 4) {
     card.error_on_card("solid " + id_text(line.id()) + " has only " + std::to_string(distinct) + " different nodes",
-               "a tetrahedron needs four");
+                       "a tetrahedron needs four");
   }
   solids.id.push_back(line.id());
   solids.part.push_back(line.part());
@@ -308,8 +316,10 @@ void build_mass_part(Builder& b, Block& block) {
   block.for_each("card0", [&](const Card& card) {
     b.refuse_nonzero(card, "lcid", "a curve for the added mass", "leave it out: the mass is then constant");
     std::vector<PartIndex> parts;
-    if (by_set) parts = b.part_set(card, "id");
-    else if (const PartIndex p = b.reference(card, "id", b.parts); p != none) parts = {p};
+    if (by_set)
+      parts = b.part_set(card, "id");
+    else if (const PartIndex p = b.reference(card, "id", b.parts); p != none)
+      parts = {p};
     const double added = card.real("addmass", dimension::mass), final_mass = card.real("finmass", dimension::mass);
     if ((added == 0) == (final_mass == 0)) {
       card.error("addmass", "expected one of ADDMASS and FINMASS, found " + std::string(added == 0 ? "none" : "both"));

@@ -21,7 +21,8 @@ Mat3 turned(const Block& block, const Mat3& tensor) {
   return affine.linear * tensor * transpose(affine.linear);
 }
 
-/// Axes from a vector along x and one in the xy plane (IRCS = 1, *DEFINE_COORDINATE_VECTOR); none where they are parallel.
+/// Axes from a vector along x and one in the xy plane (IRCS = 1, *DEFINE_COORDINATE_VECTOR); none where they are
+/// parallel.
 std::optional<Mat3> axes_from(const Vec3& along_x, const Vec3& in_plane) {
   const Vec3 z = cross(along_x, in_plane);
   if (norm(z) <= 1e-12 * norm(along_x) * norm(in_plane)) return std::nullopt;
@@ -38,8 +39,8 @@ GivenInertia read_given_inertia(Builder& b, Block& block, const std::string& fra
   const Card velocity = block.next_optional("inertia2");
   given.mass = center.real("tm", dimension::mass);
   given.center_node = b.optional_node(center, "nodeid");
-  given.center = given.center_node == none ? center.point("xc")
-                                           : b.model.nodes.x[static_cast<std::size_t>(given.center_node)];
+  given.center =
+      given.center_node == none ? center.point("xc") : b.model.nodes.x[static_cast<std::size_t>(given.center_node)];
   if (given.mass <= 0) {
     center.error("tm", "found " + center.text("tm") + ", expected a positive mass", "give the mass of the body");
   }
@@ -92,7 +93,8 @@ void build_part(Builder& b, Block& block) {
       if (inertia && part.material != none && !b.model.materials[static_cast<std::size_t>(part.material)].rigid()) {
         card.error("mid", "the part has given inertia but its material is not *MAT_RIGID", "use *MAT_RIGID or *PART");
       }
-      b.part_where.push_back({card.where(), card.id("secid", IdKind::other) != 0, card.id("mid", IdKind::material) != 0});
+      b.part_where.push_back(
+          {card.where(), card.id("secid", IdKind::other) != 0, card.id("mid", IdKind::material) != 0});
       b.model.parts.push_back(std::move(part));
     }
   }
@@ -110,7 +112,9 @@ Section* new_section(Builder& b, const std::string& title, const Card& card, Ele
   return &section;
 }
 
-std::string title_of(Block& block) { return block.has("TITLE") ? block.next_title() : std::string(); }
+std::string title_of(Block& block) {
+  return block.has("TITLE") ? block.next_title() : std::string();
+}
 
 int integer_or(const Card& card, std::string_view field, int fallback) {
   const std::int64_t value = card.integer(field);
@@ -133,7 +137,8 @@ void build_section_shell(Builder& b, Block& block) {
     s.elform = integer_or(card, "elform", 2);
     s.shrf = Builder::real_or(card, "shrf", 1.0);
     s.nip = integer_or(card, "nip", 2);
-    if (card.real("qr_irid") < 0) b.unsupported(card, "qr_irid", "an integration rule of *INTEGRATION is not available", "use NIP");
+    if (card.real("qr_irid") < 0)
+      b.unsupported(card, "qr_irid", "an integration rule of *INTEGRATION is not available", "use NIP");
     s.thickness = {sizes.real("t1", dimension::length), sizes.real("t2", dimension::length),
                    sizes.real("t3", dimension::length), sizes.real("t4", dimension::length)};
     for (std::size_t i = 1; i < 4; ++i) {
@@ -169,7 +174,8 @@ void build_section_beam(Builder& b, Block& block) {
     s.shrf = Builder::real_or(card, "shrf", 1.0);
     s.cst = static_cast<int>(card.real("cst"));
     b.refuse_nonzero(card, "nsm", "non-structural mass of the section", "use *ELEMENT_MASS");
-    if (card.real("qr_irid") < 0) b.unsupported(card, "qr_irid", "an integration rule of *INTEGRATION is not available", "use 1 to 5");
+    if (card.real("qr_irid") < 0)
+      b.unsupported(card, "qr_irid", "an integration rule of *INTEGRATION is not available", "use 1 to 5");
     if (truss) {
       s.area = sizes.real("a", dimension::area);
       b.refuse_nonzero(sizes, "stress", "an initial stress of the truss", "leave it out");

@@ -9,7 +9,9 @@ namespace kardan::deck {
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
 
 }  // namespace
 
@@ -25,7 +27,8 @@ void build_nodal_rigid_body(Builder& b, Block& block) {
     if (print_node != 0) {
       body.print_node = b.model.nodes.index_of.index(std::abs(print_node));
       if (body.print_node == none) {
-        card.error("pnode", "node " + std::to_string(std::abs(print_node)) + " is not defined", "define it with *NODE or leave PNODE at 0");
+        card.error("pnode", "node " + std::to_string(std::abs(print_node)) + " is not defined",
+                   "define it with *NODE or leave PNODE at 0");
       }
     }
     body.print = b.integer_in(card, "iprt", -2, 2);
@@ -69,7 +72,8 @@ void finish_nodal_rigid_bodies(Builder& b) {
       continue;
     }
     const std::vector<NodeIndex>& nodes = b.model.node_sets[at(set)].nodes;
-    if (nodes.empty()) pending.card.error(field, "node set " + std::to_string(pending.set) + " is empty", "a rigid body needs nodes");
+    if (nodes.empty())
+      pending.card.error(field, "node set " + std::to_string(pending.set) + " is empty", "a rigid body needs nodes");
     b.model.nodal_rigid_bodies[at(pending.body)].nodes = nodes;
   }
 }
@@ -118,8 +122,10 @@ void build_extra_nodes(Builder& b, Block& block) {
     ExtraNodes extra;
     extra.part = b.body(card, "pid");
     extra.iflag = b.integer_in(card, "iflag", 0, 1);
-    if (by_set) extra.nodes = b.node_set(card, "nsid");
-    else if (const NodeIndex n = b.node(card, "nid"); n != none) extra.nodes = {n};
+    if (by_set)
+      extra.nodes = b.node_set(card, "nsid");
+    else if (const NodeIndex n = b.node(card, "nid"); n != none)
+      extra.nodes = {n};
     if (extra.part != none && !extra.nodes.empty()) b.model.extra_nodes.push_back(std::move(extra));
   });
 }

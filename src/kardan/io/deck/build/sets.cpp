@@ -9,10 +9,15 @@ namespace kardan::deck {
 
 namespace {
 
-constexpr std::array<const char*, set_kinds> kind_names{"node", "part", "segment", "shell", "solid", "beam", "discrete"};
+constexpr std::array<const char*, set_kinds> kind_names{"node",  "part", "segment", "shell",
+                                                        "solid", "beam", "discrete"};
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-std::size_t at(SetKind k) { return static_cast<std::size_t>(k); }
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+std::size_t at(SetKind k) {
+  return static_cast<std::size_t>(k);
+}
 
 /// SET_<KIND>…; nothing for kinds that Kardan does not have.
 std::optional<SetKind> kind_of(const std::string& keyword) {
@@ -26,10 +31,14 @@ std::optional<SetKind> kind_of(const std::string& keyword) {
 
 ElementKind element_kind(SetKind kind) {
   switch (kind) {
-    case SetKind::shell: return ElementKind::shell;
-    case SetKind::solid: return ElementKind::solid;
-    case SetKind::beam: return ElementKind::beam;
-    default: return ElementKind::discrete;
+    case SetKind::shell:
+      return ElementKind::shell;
+    case SetKind::solid:
+      return ElementKind::solid;
+    case SetKind::beam:
+      return ElementKind::beam;
+    default:
+      return ElementKind::discrete;
   }
 }
 
@@ -37,10 +46,14 @@ ElementKind element_kind(SetKind kind) {
 template <class F>
 auto with_elements(const Model& model, ElementKind kind, F&& f) {
   switch (kind) {
-    case ElementKind::shell: return f(model.shells);
-    case ElementKind::solid: return f(model.solids);
-    case ElementKind::beam: return f(model.beams);
-    default: return f(model.discretes);
+    case ElementKind::shell:
+      return f(model.shells);
+    case ElementKind::solid:
+      return f(model.solids);
+    case ElementKind::beam:
+      return f(model.beams);
+    default:
+      return f(model.discretes);
   }
 }
 
@@ -59,16 +72,21 @@ std::array<NodeIndex, 4> sorted_corners(std::array<NodeIndex, 4> s) {
   return s;
 }
 
-std::string field_name(const char* stem, int number) { return stem + std::to_string(number); }
+std::string field_name(const char* stem, int number) {
+  return stem + std::to_string(number);
+}
 
 }  // namespace
 
-void register_set(Builder& b, Block& block) { b.sets->add(block); }
+void register_set(Builder& b, Block& block) {
+  b.sets->add(block);
+}
 
 void Sets::add(Block& block) {
   const std::optional<SetKind> kind = kind_of(block.keyword);
   if (!kind) {
-    block.warning("Kardan has no elements of this kind; the set is not kept", "nothing to do unless something names it");
+    block.warning("Kardan has no elements of this kind; the set is not kept",
+                  "nothing to do unless something names it");
     return;
   }
   std::string title;
@@ -77,13 +95,16 @@ void Sets::add(Block& block) {
   if (!card.present()) return;
   const UserId id = card.id("sid", IdKind::set);
   if (id <= 0) {
-    card.error("sid", "found " + std::to_string(id) + ", expected the positive number of a set", "give the set a number");
+    card.error("sid", "found " + std::to_string(id) + ", expected the positive number of a set",
+               "give the set a number");
     return;
   }
   Definition& d = sets_[at(*kind)][id];
   if (!d.blocks.empty() && !(block.has("COLLECT") && d.blocks.front()->has("COLLECT"))) {
-    card.error("sid", std::string(kind_names[at(*kind)]) + " set " + std::to_string(id) + " is defined twice; first at " +
-               d.where.file + ":" + std::to_string(d.where.line), "give one of the two another number, or use _COLLECT on both");
+    card.error("sid",
+               std::string(kind_names[at(*kind)]) + " set " + std::to_string(id) + " is defined twice; first at " +
+                   d.where.file + ":" + std::to_string(d.where.line),
+               "give one of the two another number, or use _COLLECT on both");
     return;
   }
   if (d.blocks.empty()) {
@@ -125,8 +146,8 @@ Index Sets::resolve(SetKind kind, Definition& definition) {
   if (definition.state == Definition::done) return definition.index;
   if (definition.state == Definition::in_progress) {
     b_.diagnostics.error(std::string(kind_names[at(kind)]) + " set " + std::to_string(definition.id) +
-                             " contains itself through other sets", "remove the circle",
-                         definition.blocks.front()->as_written(), definition.where);
+                             " contains itself through other sets",
+                         "remove the circle", definition.blocks.front()->as_written(), definition.where);
     return none;
   }
   definition.state = Definition::in_progress;
@@ -139,15 +160,24 @@ Index Sets::resolve(SetKind kind, Definition& definition) {
 
 void Sets::read_block(SetKind kind, Block& block, Gathering& g) {
   const std::string& k = block.keyword;
-  if (k.ends_with("_INTERSECT")) read_intersect(kind, block, g);
-  else if (k.ends_with("_ADD_ADVANCED")) read_advanced(block, g);
-  else if (k.ends_with("_ADD")) read_add(kind, block, g);
-  else if (k.ends_with("_GENERAL")) read_general(kind, block, g);
-  else if (k.ends_with("_COLUMN")) read_column(kind, block, g);
-  else if (kind == SetKind::segment) read_segments(block, g);
-  else if (block.has("GENERATE_INCREMENT")) read_generate(kind, block, g, true);
-  else if (block.has("GENERATE")) read_generate(kind, block, g, false);
-  else read_list(kind, block, g);
+  if (k.ends_with("_INTERSECT"))
+    read_intersect(kind, block, g);
+  else if (k.ends_with("_ADD_ADVANCED"))
+    read_advanced(block, g);
+  else if (k.ends_with("_ADD"))
+    read_add(kind, block, g);
+  else if (k.ends_with("_GENERAL"))
+    read_general(kind, block, g);
+  else if (k.ends_with("_COLUMN"))
+    read_column(kind, block, g);
+  else if (kind == SetKind::segment)
+    read_segments(block, g);
+  else if (block.has("GENERATE_INCREMENT"))
+    read_generate(kind, block, g, true);
+  else if (block.has("GENERATE"))
+    read_generate(kind, block, g, false);
+  else
+    read_list(kind, block, g);
 }
 
 // -- members ----------------------------------------------------------------------------------------------------------
@@ -171,9 +201,12 @@ std::size_t Sets::count(SetKind kind) const {
 const std::vector<UserId>& Sets::sorted_ids(SetKind kind) {
   std::vector<UserId>& ids = sorted_[at(kind)];
   if (ids.empty()) {
-    if (kind == SetKind::node) ids = b_.model.nodes.id;
-    else if (kind == SetKind::part) for (const Part& p : b_.model.parts) ids.push_back(p.id);
-    else ids = with_elements(b_.model, element_kind(kind), [](const auto& e) { return e.id; });
+    if (kind == SetKind::node)
+      ids = b_.model.nodes.id;
+    else if (kind == SetKind::part)
+      for (const Part& p : b_.model.parts) ids.push_back(p.id);
+    else
+      ids = with_elements(b_.model, element_kind(kind), [](const auto& e) { return e.id; });
     std::sort(ids.begin(), ids.end());
   }
   return ids;
@@ -275,9 +308,12 @@ void Sets::read_list(SetKind kind, Block& block, Gathering& g) {
       const UserId id = row.id(i, id_kind(kind));
       if (id == 0) continue;
       const Index m = find_member(kind, id);
-      if (m != none) members.push_back(m);
-      else row.error(field_name("id", i + 1), std::string(kind_names[at(kind)]) + " " + std::to_string(id) + " is not defined",
-                     "define it or take it out of the set");
+      if (m != none)
+        members.push_back(m);
+      else
+        row.error(field_name("id", i + 1),
+                  std::string(kind_names[at(kind)]) + " " + std::to_string(id) + " is not defined",
+                  "define it or take it out of the set");
     }
   });
   append(kind, g, members);
@@ -289,8 +325,9 @@ void Sets::read_generate(SetKind kind, Block& block, Gathering& g, bool incremen
     const UserId begin = row.id(first_field, id_kind(kind)), end = row.id(first_field + 1, id_kind(kind));
     if (begin == 0 && end == 0) return;
     if (end < begin || begin <= 0 || step <= 0) {
-      row.error_on_card(std::string("the range ") + std::to_string(begin) + " to " + std::to_string(end) + " by " + std::to_string(step) +
-                " is not ascending", "give the smaller number first and a positive increment");
+      row.error_on_card(std::string("the range ") + std::to_string(begin) + " to " + std::to_string(end) + " by " +
+                            std::to_string(step) + " is not ascending",
+                        "give the smaller number first and a positive increment");
       return;
     }
     const std::vector<UserId>& ids = sorted_ids(kind);
@@ -299,9 +336,12 @@ void Sets::read_generate(SetKind kind, Block& block, Gathering& g, bool incremen
     }
   };
   if (increment) {
-    block.for_each("increment", [&](const Card& row) { add_range(row, 0, row.integer("incr") == 0 ? 1 : row.integer("incr")); });
+    block.for_each("increment",
+                   [&](const Card& row) { add_range(row, 0, row.integer("incr") == 0 ? 1 : row.integer("incr")); });
   } else {
-    block.for_each("generate", [&](const Card& row) { for (int i = 0; i < 8; i += 2) add_range(row, i, 1); });
+    block.for_each("generate", [&](const Card& row) {
+      for (int i = 0; i < 8; i += 2) add_range(row, i, 1);
+    });
   }
   append(kind, g, members);
 }
@@ -345,24 +385,28 @@ void Sets::read_add(SetKind kind, Block& block, Gathering& g) {
 
 void Sets::read_advanced(Block& block, Gathering& g) {
   // TYPE: 1 node set, 2 shell set, 3 beam set, 4 solid set, 5 segment set, 6 discrete set.
-  static constexpr std::array<SetKind, 6> types{SetKind::node, SetKind::shell, SetKind::beam, SetKind::solid, SetKind::segment,
-                                                SetKind::discrete};
+  static constexpr std::array<SetKind, 6> types{SetKind::node,  SetKind::shell,   SetKind::beam,
+                                                SetKind::solid, SetKind::segment, SetKind::discrete};
   block.for_each("advanced", [&](const Card& row) {
     for (int i = 1; i <= 4; ++i) {
       const std::string field = field_name("sid", i), type_field = field_name("type", i);
       if (row.id(field, IdKind::set) == 0) continue;
       const std::int64_t type = row.integer(type_field);
       if (type < 1 || type > 6) {
-        row.error(type_field, "found " + std::to_string(type) + ", expected a kind of set that Kardan has (1 to 6)", "correct the type");
+        row.error(type_field, "found " + std::to_string(type) + ", expected a kind of set that Kardan has (1 to 6)",
+                  "correct the type");
         continue;
       }
       const SetKind kind = types[static_cast<std::size_t>(type - 1)];
       const Index set = reference(row, field, kind);
       if (set == none) continue;
       Members nodes;
-      if (kind == SetKind::node) nodes = members_of_set(kind, set);
-      else if (kind == SetKind::segment) for (const Segment& s : b_.model.segment_sets[at(set)].segments) nodes.insert(nodes.end(), s.begin(), s.end());
-      else nodes = nodes_of_elements(element_kind(kind), members_of_set(kind, set));
+      if (kind == SetKind::node)
+        nodes = members_of_set(kind, set);
+      else if (kind == SetKind::segment)
+        for (const Segment& s : b_.model.segment_sets[at(set)].segments) nodes.insert(nodes.end(), s.begin(), s.end());
+      else
+        nodes = nodes_of_elements(element_kind(kind), members_of_set(kind, set));
       append(SetKind::node, g, nodes);
     }
   });
@@ -420,9 +464,9 @@ void Sets::collect_general(SetKind kind, const std::string& option, const Card& 
   static const std::map<std::string, SetKind> element_options{
       {"SHELL", SetKind::shell}, {"SOLID", SetKind::solid}, {"BEAM", SetKind::beam}, {"DISCRETE", SetKind::discrete}};
   static const std::map<std::string, SetKind> set_options{
-      {"SET_NODE", SetKind::node},   {"SET_SHELL", SetKind::shell},    {"SET_SOLID", SetKind::solid},
-      {"SET_BEAM", SetKind::beam},   {"SET_DISCRETE", SetKind::discrete}, {"SET_DISCR", SetKind::discrete},
-      {"SET_SEGMENT", SetKind::segment}, {"SET_SGMT", SetKind::segment},  {"SET_PART", SetKind::part}};
+      {"SET_NODE", SetKind::node},       {"SET_SHELL", SetKind::shell},       {"SET_SOLID", SetKind::solid},
+      {"SET_BEAM", SetKind::beam},       {"SET_DISCRETE", SetKind::discrete}, {"SET_DISCR", SetKind::discrete},
+      {"SET_SEGMENT", SetKind::segment}, {"SET_SGMT", SetKind::segment},      {"SET_PART", SetKind::part}};
   const bool elements = kind != SetKind::node && kind != SetKind::part;
   if (option == "ALL" || option.empty()) {
     Members all(count(kind));
@@ -432,12 +476,15 @@ void Sets::collect_general(SetKind kind, const std::string& option, const Card& 
   const auto set_option = set_options.find(option);
   const auto element_option = element_options.find(option);
   const bool own = (option == "NODE" && kind == SetKind::node) || (option == "ELEM" && elements);
-  const bool others_elements = element_option != element_options.end() && (kind == SetKind::node || kind == element_option->second);
+  const bool others_elements =
+      element_option != element_options.end() && (kind == SetKind::node || kind == element_option->second);
   const bool known = own || others_elements || option == "PART" || (option == "BOX" && kind != SetKind::part) ||
                      (set_option != set_options.end() && (kind == SetKind::node || kind == set_option->second));
   if (!known) {
-    row.error("option", "found " + option + ", expected ALL, PART, BOX, " + (elements ? "ELEM" : "NODE") +
-              " or a name that begins with D or SET_ of these, for a " + kind_names[at(kind)] + " set", "correct the option");
+    row.error("option",
+              "found " + option + ", expected ALL, PART, BOX, " + (elements ? "ELEM" : "NODE") +
+                  " or a name that begins with D or SET_ of these, for a " + kind_names[at(kind)] + " set",
+              "correct the option");
     return;
   }
   for (int i = 1; i <= 7; ++i) {
@@ -453,16 +500,26 @@ void Sets::collect_general(SetKind kind, const std::string& option, const Card& 
     } else if (set_option != set_options.end()) {
       const Index set = reference(row, field, set_option->second);
       if (set == none) continue;
-      if (set_option->second == kind) found = members_of_set(kind, set);
-      else if (set_option->second == SetKind::segment) for (const Segment& s : b_.model.segment_sets[at(set)].segments) found.insert(found.end(), s.begin(), s.end());
-      else if (set_option->second == SetKind::part) for (const PartIndex p : b_.model.part_sets[at(set)].parts) { const Members m = in_part(kind, p); found.insert(found.end(), m.begin(), m.end()); }
-      else found = nodes_of_elements(element_kind(set_option->second), members_of_set(set_option->second, set));
+      if (set_option->second == kind)
+        found = members_of_set(kind, set);
+      else if (set_option->second == SetKind::segment)
+        for (const Segment& s : b_.model.segment_sets[at(set)].segments) found.insert(found.end(), s.begin(), s.end());
+      else if (set_option->second == SetKind::part)
+        for (const PartIndex p : b_.model.part_sets[at(set)].parts) {
+          const Members m = in_part(kind, p);
+          found.insert(found.end(), m.begin(), m.end());
+        }
+      else
+        found = nodes_of_elements(element_kind(set_option->second), members_of_set(set_option->second, set));
     } else {
       const SetKind member_kind = own ? kind : element_option->second;
       const UserId id = row.id(field, id_kind(member_kind));
       const Index m = find_member(member_kind, id);
-      if (m == none) row.error(field, std::string(kind_names[at(member_kind)]) + " " + std::to_string(id) + " is not defined", "define it or take it out of the set");
-      else found = member_kind == kind ? Members{m} : nodes_of_elements(element_kind(member_kind), {m});
+      if (m == none)
+        row.error(field, std::string(kind_names[at(member_kind)]) + " " + std::to_string(id) + " is not defined",
+                  "define it or take it out of the set");
+      else
+        found = member_kind == kind ? Members{m} : nodes_of_elements(element_kind(member_kind), {m});
     }
     append(kind, g, found);
   }
@@ -518,7 +575,8 @@ void Sets::general_segments(const std::string& option, const Card& row, Gatherin
     Segment s{b_.node(row, "e1"), b_.node(row, "e2"), b_.node(row, "e3"), none};
     s[3] = row.id("e4", IdKind::node) == 0 ? s[2] : b_.node(row, "e4");
     if (std::find(s.begin(), s.end(), none) == s.end()) found.push_back(s);
-  } else if (option == "PART" || option == "BOX" || option == "SHELL" || option == "SET_SHELL" || option == "SET_SEGMENT" || option == "SET_SGMT") {
+  } else if (option == "PART" || option == "BOX" || option == "SHELL" || option == "SET_SHELL" ||
+             option == "SET_SEGMENT" || option == "SET_SGMT") {
     for (int i = 1; i <= 7; ++i) {
       const std::string field = field_name("e", i);
       if (row.blank(field) || row.integer(field) == 0) continue;
@@ -529,24 +587,31 @@ void Sets::general_segments(const std::string& option, const Card& row, Gatherin
         const Index box = b_.reference(row, field, b_.boxes);
         for (std::size_t p = 0; box != none && p < b_.model.parts.size(); ++p) {
           for (const Segment& s : segments_of_part(static_cast<PartIndex>(p))) {
-            if (std::all_of(s.begin(), s.end(), [&](NodeIndex n) { return inside(b_.box_list[at(box)], b_.model.nodes.x[at(n)]); })) some.push_back(s);
+            if (std::all_of(s.begin(), s.end(),
+                            [&](NodeIndex n) { return inside(b_.box_list[at(box)], b_.model.nodes.x[at(n)]); }))
+              some.push_back(s);
           }
         }
       } else if (option == "SHELL") {
         const UserId id = row.id(field, IdKind::element);
         const Index e = find_member(SetKind::shell, id);
-        if (e == none) row.error(field, "shell " + std::to_string(id) + " is not defined", "define it or take it out of the set");
-        else some.push_back(b_.model.shells.nodes[at(e)]);
+        if (e == none)
+          row.error(field, "shell " + std::to_string(id) + " is not defined", "define it or take it out of the set");
+        else
+          some.push_back(b_.model.shells.nodes[at(e)]);
       } else if (option == "SET_SHELL") {
         const Index set = reference(row, field, SetKind::shell);
-        if (set != none) for (const Index e : members_of_set(SetKind::shell, set)) some.push_back(b_.model.shells.nodes[at(e)]);
+        if (set != none)
+          for (const Index e : members_of_set(SetKind::shell, set)) some.push_back(b_.model.shells.nodes[at(e)]);
       } else if (const Index set = reference(row, field, SetKind::segment); set != none) {
         some = b_.model.segment_sets[at(set)].segments;
       }
       found.insert(found.end(), some.begin(), some.end());
     }
   } else {
-    row.error("option", "found " + option + ", expected ALL, PART, BOX, SEG, SHELL, SET_SHELL or SET_SEGMENT (with D in front to delete)",
+    row.error("option",
+              "found " + option +
+                  ", expected ALL, PART, BOX, SEG, SHELL, SET_SHELL or SET_SEGMENT (with D in front to delete)",
               "correct the option");
   }
   if (!remove_them) {

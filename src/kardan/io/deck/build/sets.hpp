@@ -34,10 +34,10 @@ class Sets {
   struct Definition {
     UserId id = 0;
     std::string title;
-    std::vector<Block*> blocks;      // several with _COLLECT
+    std::vector<Block*> blocks;  // several with _COLLECT
     SourceLocation where;
     enum { untouched, in_progress, done } state = untouched;
-    Index index = none;              // in the model's list
+    Index index = none;  // in the model's list
   };
 
   /// Members gathered in order of first mention.
