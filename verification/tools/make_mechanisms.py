@@ -487,6 +487,50 @@ x = 0.3 + t2, angle = 2 t2.""", 1, 1e-5, 0.01)
     k.write(path("law_tensor_signs", "tensor.k"))
 
 
+SKEW = [unit([2, 1, 2]), unit([-1, 2, 0]), cross(unit([2, 1, 2]), unit([-1, 2, 0]))]
+
+
+def free_flight():
+    """Pairs of bodies on each kind of joint: free.k (nothing but the joints acts) and grounded.k."""
+    tensor = [[0.02, 0.003, -0.004], [0.003, 0.025, 0.002], [-0.004, 0.002, 0.03]]
+    for kind in ("spherical", "revolute", "cylindrical", "planar", "universal", "translational", "locking"):
+        def points(o, f, along):
+            """Joint points at o, with axis f[0]; `along` shifts a parallel joint where that keeps it the same joint."""
+            o = add(o, scale(along, f[1] if kind == "planar" else f[0])) if kind not in ("spherical", "universal") else o
+            axis, side = add(o, scale(0.1, f[0])), add(o, scale(0.1, f[1]))
+            return {"spherical": [o], "universal": [o, (axis, side)], "translational": [o, axis, side],
+                    "locking": [o, axis, side]}.get(kind, [o, axis])
+
+        def pair(k, a, at, f, ratio=1.0, grounded=False, twice=False):
+            b = 1 if grounded else a + 1
+            center = add(at, add(scale(-0.2, f[0]), scale(0.15, f[2])))
+            k.body(a, f"body {a}", 1.0, center, tensor, (0.15, 0.1, 0.05))
+            k.initial(a, [0.3, -0.2, 0.1] if grounded else [1, 0.5, -0.4], [1, -2, 1.5])
+            if not grounded:
+                k.body(b, f"body {b}", ratio, add(at, add(scale(0.25, f[0]), scale(-0.1, f[1]))),
+                       [scale(ratio, row) for row in tensor], (0.15, 0.06, 0.1))
+                k.initial(b, [-1, 0.8, 0.2], [-2, 1, 2.5])
+            number = len([line for line in k.joints if line.startswith("*")])
+            for n in range(2 if twice else 1):
+                k.joint(kind, number + n + 1, f"{kind} {a} - {b}", a, b, points(at, f, 0.05 * n))
+
+        k = Deck(f"Free flight, {kind} joint", f"""Four pairs of bodies, each held together by a {kind} joint, fly freely: no load, no gravity.
+Parts 11-12 with the joint's axis along x, 21-22 with a skew axis, 31-32 with two such joints in parallel (redundant),
+41-42 with a mass ratio of 1e6. The bodies start with velocities that contradict the joints.""", 1, 1e-4, 0.01)
+        for a, f, options in ((11, GLOBAL, {}), (21, SKEW, {}), (31, SKEW, {"twice": True}), (41, SKEW, {"ratio": 1e6})):
+            pair(k, a, FREE_AT[a], f, **options)
+        k.write(path(f"free_flight_{kind}", "free.k"))
+        k = Deck(f"Grounded, {kind} joint", f"""Two bodies, each on a {kind} joint of ground, without load: part 11 with the joint's axis along x, part 21 skew.""",
+                 1, 1e-4, 0.01)
+        k.ground(1)
+        for a, f in ((11, GLOBAL), (21, SKEW)):
+            pair(k, a, FREE_AT[a], f, grounded=True)
+        k.write(path(f"free_flight_{kind}", "grounded.k"))
+
+
+FREE_AT = {11: [0.1, 0.2, 0.3], 21: [0.1, 2.2, 0.3], 31: [0.1, 4.2, 0.3], 41: [0.1, 6.2, 0.3]}
+
+
 def solve3(m, b):
     """Cramer's rule."""
     det = lambda a: dot(a[0], cross(a[1], a[2]))
@@ -519,6 +563,7 @@ def main():
     chain(100)
     adams()
     laws()
+    free_flight()
     tensor_oracle()
     if len(sys.argv) > 1:
         with open(os.path.join(sys.argv[1], "verification", "b_iftomm.json")) as f:

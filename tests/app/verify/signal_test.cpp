@@ -76,6 +76,22 @@ TEST_F(Signals, PointsAndAxesAreCarriedByTheBody) {
   expect_near(evaluate(R"({"body": 7, "quantity": "quaternion", "initial": [0, 0, 0, 1]})"), {-h, 0, 0, h});
 }
 
+TEST_F(Signals, RelativeMotionIsSeenFromTheFirstBody) {
+  state_.bodies.info.push_back(state_.bodies.info[0]);
+  state_.bodies.info[1].id = 8;
+  state_.bodies.motion.push_back(state_.bodies.motion[0]);
+  state_.bodies.report.resize(2);
+  // both turn by a quarter about z, the second goes on by 0.1 about its own x; it is 2 ahead in the turned frame's x
+  turn({0, 0, std::numbers::pi / 2});
+  const Quat quarter = from_rotation_vector({0, 0, std::numbers::pi / 2}), more = from_rotation_vector({0.1, 0, 0});
+  state_.bodies.motion[1].orientation = quarter * more * state_.bodies.info[1].initial_orientation;
+  state_.bodies.motion[1].center = state_.bodies.motion[0].center + Vec3{0, 2, 0};
+  expect_near(evaluate(R"({"relative": [7, 8], "quantity": "displacement", "point": [1, 0, 0]})"), {2, 0, 0});
+  expect_near(evaluate(R"({"relative": [7, 8], "quantity": "rotation"})"), {0.1, 0, 0});
+  expect_near(evaluate(R"({"relative": [7, 8], "quantity": "direction", "direction": [0, 1, 0]})"),
+              {0, std::cos(0.1), std::sin(0.1)});
+}
+
 TEST_F(Signals, MomentumCountsSpinAndPath) {
   state_.bodies.motion[0].velocity = {0, 3, 0};
   state_.bodies.motion[0].angular_momentum = {0, 0, 1};

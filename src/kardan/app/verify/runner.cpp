@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "kardan/app/verify/signal.hpp"
-#include "kardan/io/deck/build/build.hpp"
-#include "kardan/io/deck/deck.hpp"
+#include "kardan/io/deck/load.hpp"
 #include "kardan/solver/solver.hpp"
 
 namespace kardan::verify {
@@ -52,8 +51,10 @@ class Recorder : public Observer {
 }
 
 Model model_of(const Run& run, Diagnostics& diagnostics) {
-  auto deck = deck::read_deck(run.deck, {}, diagnostics);
-  Model model = deck::build_model(deck, {.end_time = run.end}, diagnostics);
+  deck::LoadOptions options;
+  options.build.end_time = run.end;
+  Model model = deck::load_model(run.deck, options, diagnostics);
+  for (const Diagnostic& unsupported : model.unsupported) diagnostics.add(unsupported);
   if (!diagnostics.ok()) refuse(run, diagnostics);
   return model;
 }

@@ -1,6 +1,7 @@
 #include "kardan/app/verify/signal.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -23,8 +24,8 @@ std::vector<double> components(const std::array<double, 3>& v) { return {v[0], v
 
 Vec3 vector_of(const json& list) { return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()}; }
 
-std::size_t body_index(const json& d, const State& state) {
-  const auto id = d.at("body").get<UserId>();
+std::size_t body_index(const json& d, const json& id_entry, const State& state) {
+  const auto id = id_entry.get<UserId>();
   const auto& info = state.bodies.info;
   const auto found = std::find_if(info.begin(), info.end(), [&](const BodyInfo& b) { return b.id == id; });
   if (found == info.end()) refuse(d, "no rigid body " + std::to_string(id));
@@ -34,6 +35,11 @@ std::size_t body_index(const json& d, const State& state) {
 /// Rotation of the body since t = 0, in global axes.
 Quat turned(const BodyState& bodies, std::size_t b) {
   return bodies.motion[b].orientation * conjugate(bodies.info[b].initial_orientation);
+}
+
+/// Global position at t_n of the point of body b that was at `point` at t = 0.
+Vec3 carried(const BodyState& bodies, std::size_t b, const Vec3& point) {
+  return bodies.motion[b].center + to_matrix(turned(bodies, b)) * (point - bodies.info[b].initial_center);
 }
 
 /// Angle of the rotation since t = 0 about a fixed axis (swing-twist), continued over full turns.
@@ -47,7 +53,7 @@ Signal turn_signal(std::size_t b, const Vec3& axis) {
 }
 
 Signal body_signal(const json& d, const State& state) {
-  const std::size_t b = body_index(d, state);
+  const std::size_t b = body_index(d, d.at("body"), state);
   const auto quantity = d.at("quantity").get<std::string>();
   const auto of_motion = [b](Vec3 BodyMotion::*m) {
     return [b, m](const State& s) { return components(s.bodies.motion[b].*m); };
@@ -70,10 +76,7 @@ Signal body_signal(const json& d, const State& state) {
     };
   if (quantity == "turn") return turn_signal(b, normalized(vector_of(d.at("axis"))));
   if (quantity == "carried_point")
-    return [b, point = vector_of(d.at("point"))](const State& s) {
-      const Vec3 arm = point - s.bodies.info[b].initial_center;
-      return components(s.bodies.motion[b].center + to_matrix(turned(s.bodies, b)) * arm);
-    };
+    return [b, point = vector_of(d.at("point"))](const State& s) { return components(carried(s.bodies, b, point)); };
   if (quantity == "quaternion") {
     Quat start;
     if (d.contains("initial")) {
@@ -86,6 +89,25 @@ Signal body_signal(const json& d, const State& state) {
     };
   }
   refuse(d, "no such quantity of a body");
+}
+
+Signal relative_signal(const json& d, const State& state) {
+  const std::size_t a = body_index(d, d.at("relative").at(0), state), b = body_index(d, d.at("relative").at(1), state);
+  const auto quantity = d.at("quantity").get<std::string>();
+  if (quantity == "displacement")
+    return [a, b, point = vector_of(d.at("point"))](const State& s) {
+      const Vec3 gap = carried(s.bodies, b, point) - carried(s.bodies, a, point);
+      return components(transpose(to_matrix(turned(s.bodies, a))) * gap);
+    };
+  if (quantity == "rotation")
+    return [a, b](const State& s) {
+      return components(to_rotation_vector(conjugate(turned(s.bodies, a)) * turned(s.bodies, b)));
+    };
+  if (quantity == "direction")
+    return [a, b, direction = vector_of(d.at("direction"))](const State& s) {
+      return components(to_matrix(conjugate(turned(s.bodies, a)) * turned(s.bodies, b)) * direction);
+    };
+  refuse(d, "no such quantity of a pair of bodies");
 }
 
 Signal node_signal(const json& d, const Model& model) {
@@ -204,6 +226,7 @@ Signal combined_signal(const json& d, const Model& model, const State& state) {
 
 Signal source_signal(const json& d, const Model& model, const State& state) {
   if (d.contains("body")) return body_signal(d, state);
+  if (d.contains("relative")) return relative_signal(d, state);
   if (d.contains("node")) return node_signal(d, model);
   if (d.contains("joint")) return joint_signal(d, model);
   if (d.contains("stiffness")) return stiffness_signal(d, model);

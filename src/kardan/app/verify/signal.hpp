@@ -24,6 +24,9 @@ using Signal = std::function<std::vector<double>(const State&)>;
 ///                                      turn ("axis": angle about a fixed axis, counted over full turns),
 ///                                      carried_point ("point": global coordinates at t = 0; moves with the body)
 ///                                      mass
+///   {"relative": [a, b], "quantity": Q}  of body b in axes that turn with body a (global at t = 0):
+///                                      displacement ("point": where it was common at t = 0), rotation (vector),
+///                                      direction ("direction": of t = 0, carried by b)
 ///   {"node": id, "quantity": Q}        position, displacement, velocity, acceleration
 ///   {"joint": id, "quantity": Q}       force, moment (of body A on body B), separation, angular_separation, energy
 ///   {"joint": "all", "quantity": Q}    the largest of all joints; separation, angular_separation
