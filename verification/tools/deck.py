@@ -128,13 +128,13 @@ class Deck:
         o += ["$ " + line for line in self.about.strip().split("\n")]
         o += ["$ Units: kg, m, s, N. Comma-separated fields; every number is given in full double precision.",
               "$ Written by verification/tools/make_mechanisms.py.", "$",
-              "*CONTROL_TERMINATION", num(self.end),
+              "*CONTROL_TERMINATION", card(self.end, 0),
               "$ DTINIT, TSSFAC, ISDO, TSLIMT, DT2MS, LCTM", "*CONTROL_TIMESTEP", card(self.dt, 0, 0, 0, 0, 9),
               "$ curve 9: the largest time step", "*DEFINE_CURVE", "9", f"0,{num(self.dt)}", f"1e6,{num(self.dt)}"]
         o += ["$ LMF = 1: joints are held exactly (Lagrange multipliers); JNTF = 1: total moments", "*CONTROL_RIGID", "1,1"]
         for name in ("GLSTAT", "RBDOUT", "JNTFORC"):
-            o += ["*DATABASE_" + name, num(self.outputs)]
-        o += ["*DATABASE_BINARY_D3PLOT", num(self.end / 50), "$", "*SECTION_SOLID", "1,1",
+            o += ["*DATABASE_" + name, card(self.outputs, 0)]
+        o += ["*DATABASE_BINARY_D3PLOT", card(self.end / 50, 0), "$", "*SECTION_SOLID", "1,1",
               "*MAT_RIGID", "1,7850,2.1e11,0.3", "0,0,0", "0"]
         if self.grounded:
             o += ["$ nothing of it can move", "*MAT_RIGID", "2,7850,2.1e11,0.3", "1,7,7", "0"]

@@ -118,6 +118,7 @@ void print(const Options& options, const std::vector<Result>& results, double se
   if (options.markdown)
     out << "\n### " << c.name << ": " << c.title << "\n\n" << c.proves << "\n\nOracle: " << c.source
         << fmt::format("\n\n| figure | value | limit | unit | holds |\n|---|---|---|---|---|\n");
+  std::string told;  // a run that cannot be made fails many figures: said once
   for (const Result& r : results) {
     if (options.json)
       out << to_json(r).dump() << '\n';
@@ -125,7 +126,8 @@ void print(const Options& options, const std::vector<Result>& results, double se
       out << as_markdown(r) << '\n';
     else
       out << as_text(r) << '\n';
-    if (!r.failure.empty() && !options.json) out << "    " << r.failure << '\n';
+    if (!r.failure.empty() && !options.json && told != r.failure) out << "    " << r.failure << '\n';
+    told = r.failure;
   }
   if (options.markdown) {
     std::set<std::string> notes;
