@@ -120,7 +120,7 @@ struct GivenInertia {
   Index velocity_frame = none;   ///< frame VTX … VRZ are given in; none = global
 };
 
-/// *HOURGLASS; 0 in a field = the value of *CONTROL_HOURGLASS or *CONTROL_BULK_VISCOSITY.
+/// *HOURGLASS; blank fields hold LS-DYNA's defaults (QM 0.1, Q1 1.5, Q2 0.06, QB and QW 0.1), IHQ = 0 the default type.
 struct Hourglass {
   UserId id = 0;
   std::string title;

@@ -134,5 +134,16 @@ TEST(BuildJoints, StiffnessesAnglesInRadiansAndFrictionCurves) {
   EXPECT_EQ(s[3].coordinate[2].friction, 4);
 }
 
+TEST(BuildRigid, ConstraintsAtAPointAndReleasesAreRefused) {
+  const std::string bodies =
+      "*PART\na\n1,1,1\nb\n2,1,2\n*SECTION_SOLID\n1\n*MAT_RIGID\n1,1,1,.3\n2,7,7,0,1,2,3\n0\n*MAT_RIGID\n2,1,1,.3\n";
+  const Built held(bodies + "2,7,7\n0");
+  EXPECT_TRUE(held.model.unsupported.empty()) << held.messages();
+  const Built turning(
+      bodies + "2,7,4\n0\n*NODE\n1,0,0,0\n2,1,0,0\n*SET_NODE\n9\n1,2\n*CONSTRAINED_NODAL_RIGID_BODY\n9,0,0,0,0,1");
+  EXPECT_NE(turning.unsupported("field CMO: a constraint of the body at a point"), nullptr) << turning.messages();
+  EXPECT_NE(turning.unsupported("field DRFLAG: a release"), nullptr);
+}
+
 }  // namespace
 }  // namespace kardan::deck

@@ -35,6 +35,7 @@ void read_time_step(Builder& b, Block& block) {
   t.limit = b.optional_curve(card, "lctm");
   t.erode = static_cast<int>(card.integer("erode"));
   if (t.dt2ms != 0) b.mass_scaling = card;
+  b.ignored(card, "erode", "an element of negative volume stops the run");
   b.ignored(card, "tslimt", "no element's stiffness is reduced to keep the step");
   b.ignored(card, "ms1st", "there is no mass scaling");
   for (const char* field : {"imscl", "rmscl", "dt2mslc"}) b.ignored(more, field, "there is no mass scaling");
@@ -50,6 +51,9 @@ void read_rigid(Builder& b, Block& block) {
   r.gjadvsc = more.real("gjadvsc", dimension::rotational_damping);
   r.tjadstf = more.real("tjadstf", dimension::stiffness);
   r.tjadvsc = more.real("tjadvsc", dimension::damping);
+  for (const char* field : {"gjadstf", "gjadvsc", "tjadstf", "tjadvsc"}) {
+    b.refuse_nonzero(more, field, "stiffness or damping added to all joints", "use *CONSTRAINED_JOINT_STIFFNESS");
+  }
   b.ignored(card, "metalf", "rigid bodies are updated in full");
   b.ignored(card, "rbsms", "there is no selective mass scaling");
 }

@@ -207,6 +207,7 @@ void build_coordinate_system(Builder& b, Block& block) {
     const Card card = block.next("card0");
     const Card plane = block.next("card1");
     frame.id = card.id("cid", IdKind::define);
+    b.refuse_nonzero(plane, "type", "a cylindrical or spherical coordinate system", "use a Cartesian one");
     const Index base = b.optional_reference(card, "cidl", b.frames);
     Vec3 origin = card.point("xo"), on_x = card.point("xl"), in_plane = plane.point("xp");
     if (base != none) {
@@ -230,6 +231,7 @@ void build_coordinate_nodes(Builder& b, Block& block) {
     frame.id = card.id("cid", IdKind::define);
     frame.nodes = {b.node(card, "n1"), b.node(card, "n2"), b.node(card, "n3")};
     frame.moves = b.integer_in(card, "flag", 0, 1) == 1;
+    b.refuse_nonzero(card, "type", "a cylindrical or spherical coordinate system", "use a Cartesian one");
     const std::string direction = card.text("dir");
     const char letter =
         direction.empty() ? 'X' : static_cast<char>(std::toupper(static_cast<unsigned char>(direction[0])));

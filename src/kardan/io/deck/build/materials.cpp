@@ -44,6 +44,13 @@ BodyConstraint read_body_constraint(Builder& b, const Card& card) {
   }
   if (std::fabs(c.cmo) == 2) {
     c.node = b.optional_node(card, "spcnid");
+    // Held at a point or at the centre of mass is the same where no rotation is left.
+    const int translations = c.cmo > 0 ? c.con1 : c.con2 & dof_translations;
+    const bool turns = c.cmo > 0 ? c.con2 != 7 : (c.con2 & dof_rotations) != dof_rotations;
+    if (translations != 0 && turns) {
+      b.unsupported(card, "cmo", "a constraint of the body at a point (|CMO| = 2) is not available",
+                    "use CMO = 1 or -1 (at the centre of mass) or a joint to a fixed body");
+    }
     c.point = c.node == none ? card.point("xspc") : b.model.nodes.x[static_cast<std::size_t>(c.node)];
   }
   return c;

@@ -189,6 +189,9 @@ void build_section_beam(Builder& b, Block& block) {
       s.volume = sizes.real("vol", {0, 3, 0});
       s.inertia = sizes.real("iner", dimension::inertia);
     } else {
+      for (const char* field : {"nsloc", "ntloc"}) {
+        b.refuse_nonzero(sizes, field, "an offset of the beam's reference axis", "leave it at 0, or move the nodes");
+      }
       s.ts = {sizes.real("ts1", dimension::length), sizes.real("ts2", dimension::length)};
       s.tt = {sizes.real("tt1", dimension::length), sizes.real("tt2", dimension::length)};
       if (s.ts[1] == 0) s.ts[1] = s.ts[0];

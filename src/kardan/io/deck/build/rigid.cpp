@@ -34,6 +34,10 @@ void build_nodal_rigid_body(Builder& b, Block& block) {
     body.print = b.integer_in(card, "iprt", -2, 2);
     body.drflag = b.integer_in(card, "drflag", -7, 7);
     body.rrflag = b.integer_in(card, "rrflag", -7, 7);
+    for (const char* release : {"drflag", "rrflag"}) {
+      b.refuse_nonzero(card, release, "a release of the nodes of a nodal rigid body",
+                       "connect the nodes by a joint instead");
+    }
     if (block.has("SPC")) {
       const BodyConstraint c = read_body_constraint(b, block.next("spc"));
       body.cmo = c.cmo;
