@@ -1,9 +1,13 @@
 #!/usr/bin/python3
-"""Draws states of a d3plot side by side into a PNG, with VTK's own reader of LS-DYNA results; needs no display.
+"""Draws states of a d3plot side by side into a PNG, with VTK's own reader of LS-DYNA results. Without a display it starts
+itself again under xvfb-run (Debian package xvfb).
 
   render_d3plot.py results/slider_crank/d3plot picture.png [--states 0 10 20] [--hide PART …] [--size 1600 520]
 """
 import argparse
+import os
+import shutil
+import sys
 
 import vtk
 
@@ -85,7 +89,7 @@ def draw(path, picture, states, hidden, size):
         camera.SetFocalPoint(0, 0, 0)
         camera.SetPosition(-0.55, -1, 0.75)
         renderer.ResetCamera(bounds)
-        camera.Zoom(1.35)
+        camera.Zoom(1.2)
         window.AddRenderer(renderer)
     window.Render()
     grab = vtk.vtkWindowToImageFilter()
@@ -105,6 +109,10 @@ def main():
     parser.add_argument("--hide", type=int, nargs="+", default=[])
     parser.add_argument("--size", type=int, nargs=2, default=[1600, 520])
     a = parser.parse_args()
+    if "DISPLAY" not in os.environ:
+        if not shutil.which("xvfb-run"):
+            sys.exit("no display, and no xvfb-run to make one: apt-get install xvfb")
+        os.execvp("xvfb-run", ["xvfb-run", "-a", "-s", "-screen 0 1600x1200x24", sys.executable, *sys.argv])
     draw(a.d3plot, a.picture, a.states, set(a.hide), a.size)
 
 
