@@ -50,7 +50,7 @@ TimeStepRule::TimeStepRule(const Model& model, const StepFacts& facts, std::opti
     constant_ = facts.rigid_elements;
     constant_.dt *= scale_;
     reason_ = fmt::format(
-        "time step: constant {:g} = {:g} (TSSFAC) x the Courant step of rigid {} (nothing deforms; set DTINIT or --dt for "
+        "time step: constant {:g} = {:g} (TSSFAC) x the Courant step of {} (nothing deforms; set DTINIT or --dt for "
         "another one)", constant_.dt, scale_, to_string(facts.rigid_elements));
   } else {
     constant_ = {facts.rigid_default, {}, "default"};
