@@ -142,6 +142,58 @@ TEST_F(Program, HashIsTheSameForOneAndTwoThreads) {
   EXPECT_NE(summary("1")["state_hash"], summary("finer")["state_hash"]);
 }
 
+/// A square of elastic shells that is pulled apart.
+const std::string pulled_shells = R"(*KEYWORD
+*CONTROL_TERMINATION
+2e-4
+*DATABASE_GLSTAT
+1e-5
+*PART
+plate
+1,1,1
+*SECTION_SHELL
+1,2
+0.01,0.01,0.01,0.01
+*MAT_ELASTIC
+1,7850,2.1e11,0.3
+*NODE
+1,0,0,0
+2,0.1,0,0
+3,0.2,0,0
+4,0,0.1,0
+5,0.1,0.11,0.01
+6,0.2,0.1,0
+7,0,0.2,0
+8,0.1,0.2,0
+9,0.2,0.2,0
+*ELEMENT_SHELL
+1,1,1,2,5,4
+2,1,2,3,6,5
+3,1,4,5,8,7
+4,1,5,6,9,8
+*SET_NODE_LIST
+1
+3,6,9
+*INITIAL_VELOCITY
+1
+5,1,2
+*END
+)";
+
+TEST_F(Program, HashIsTheSameForEveryInstructionSet) {
+  const std::string path = deck("shells.k", pulled_shells);
+  std::vector<std::string> hashes;
+  for (const char* isa : {"x86-64-v2", "x86-64-v3", "x86-64-v4"}) {
+    if (call({"run", path, "--isa", isa, "-o", (folder / isa).string()}) == 2) continue;  // not on this processor
+    EXPECT_EQ(summary(isa)["instruction_set"], isa);
+    EXPECT_GT(summary(isa)["energies"]["internal"].get<double>(), 0);
+    hashes.push_back(summary(isa)["state_hash"]);
+  }
+  ASSERT_FALSE(hashes.empty());
+  EXPECT_THAT(hashes, testing::Each(hashes.front()));
+  EXPECT_EQ(call({"run", path, "--isa", "native", "-o", (folder / "native").string()}), 0) << err;
+}
+
 TEST_F(Program, EnergyStopIsAnErrorTermination) {
   std::string text = falling_cube;
   text.replace(text.find("*CONTROL_TERMINATION\n0.5"), 24, "*CONTROL_TERMINATION\n0.5,0,0,1e-30");

@@ -46,12 +46,6 @@ void refuse(const Diagnostics& diagnostics, Log& log) {
   log.error(fmt::format("{} error{}: the deck cannot be run", errors, errors == 1 ? "" : "s"));
 }
 
-void say_instruction_set(const RunRequest& request, Log& log) {
-  if (request.isa && *request.isa != built_isa())
-    log.line(fmt::format("notice: --isa {}: this build has its kernels for {} only, they are used", to_string(*request.isa),
-                         to_string(built_isa())));
-}
-
 /// Which files are written beyond, or short of, what the deck asks for.
 void say_files(const ResultsWriter& writer, Log& log) {
   if (writer.defaulted())
@@ -95,10 +89,10 @@ void say_end(const Solver& solver, const std::string& failure, double seconds, L
 int run_deck(const RunRequest& request, Log& log) {
   const Stopwatch watch;
   const BuildInfo& build = build_info();
-  log.line(fmt::format("kardan {} (commit {}), {} thread{}", build.version, build.commit, request.threads,
-                       request.threads == 1 ? "" : "s"));
+  log.line(fmt::format("kardan {} (commit {}), {} thread{}, kernels for {}", build.version, build.commit, request.threads,
+                       request.threads == 1 ? "" : "s", to_string(request.isa.value_or(native_isa()))));
   for (const std::string& note : request.notes) log.line("notice: " + note);
-  say_instruction_set(request, log);
+  if (request.isa) use_isa(*request.isa);
 
   Diagnostics diagnostics;
   const Model model = load(request, diagnostics);

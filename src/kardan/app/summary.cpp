@@ -77,7 +77,7 @@ json summarize(const Solver& solver, const RunRecord& record) {
   summary["joints"] =
       joint_holding(model, record.request.joints).holding == JointHolding::exact ? "exact" : "penalty";
   summary["threads"] = record.request.threads;
-  summary["instruction_set"] = to_string(built_isa());
+  summary["instruction_set"] = to_string(record.request.isa.value_or(native_isa()));
   summary["model"] = {{"nodes", model.nodes.size()},   {"parts", model.parts.size()},
                       {"shells", model.shells.size()}, {"solids", model.solids.size()},
                       {"beams", model.beams.size()},   {"discretes", model.discretes.size()},

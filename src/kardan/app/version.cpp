@@ -18,10 +18,11 @@ std::string version_text() {
   return fmt::format(
       "kardan {} (commit {})\n"
       "compiler:        {}, {}\n"
-      "instruction set: kernels compiled for {}; this machine has {}\n"
+      "instruction set: kernels for {}, {} and {}; this machine has {}\n"
       "threads:         OpenMP {}, {} processors\n"
       "MPI:             no MPI in this build\n",
-      info.version, info.commit, info.compiler, info.flags, to_string(built_isa()), to_string(native_isa()), _OPENMP,
+      info.version, info.commit, info.compiler, info.flags, to_string(Isa::v2), to_string(Isa::v3),
+      to_string(Isa::v4), to_string(native_isa()), _OPENMP,
       omp_get_num_procs());
 }
 
