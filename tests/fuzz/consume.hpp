@@ -29,7 +29,9 @@ inline std::size_t consume(Deck& deck, Diagnostics& diagnostics) {
     }
     block.rewind();
   }
-  build_model(deck, {}, diagnostics);
+  BuildOptions options;
+  options.max_curve_points = 1000;  // sampling is slow and no matter of the reader's
+  build_model(deck, options, diagnostics);
   return fields;
 }
 

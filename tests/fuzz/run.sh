@@ -9,16 +9,22 @@ cxx=$(command -v clang++ || command -v clang++-14)
 mkdir -p "$out/corpus"
 cmake -DINPUT="$root/src/kardan/io/deck/schema/keywords.tsv" -DOUTPUT="$out/keyword_table.cpp" -P "$root/cmake/EmbedText.cmake"
 flags="-std=c++20 -O2 -g1 -fno-omit-frame-pointer -DFMT_HEADER_ONLY -I$root/src -DKARDAN_FUZZ_SEEDS=\"$root/tests/fuzz/seeds\""
+sources="$out/keyword_table.cpp $root/tests/fuzz/deck_fuzz.cpp \
+  $(find "$root/src/kardan/base" "$root/src/kardan/model" "$root/src/kardan/io/deck" -name '*.cpp')"
 objects=
-for source in "$out/keyword_table.cpp" "$root/tests/fuzz/deck_fuzz.cpp" $(find "$root/src/kardan/base" "$root/src/kardan/model" \
-    "$root/src/kardan/io/deck" -name '*.cpp'); do
+todo=
+for source in $sources; do
   object=$out/$(echo "${source#"$root"/}" | tr / _).o
   objects="$objects $object"
-  if [ ! -e "$object" ] || [ -n "$(find "$root/src/kardan" "$source" -newer "$object" -type f | head -n 1)" ]; then
-    # shellcheck disable=SC2086
-    "$cxx" $flags -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -c "$source" -o "$object"
+  # Rebuilt if it or any header is newer.
+  if [ ! -e "$object" ] || [ -n "$(find "$root/src/kardan" "$root/tests/fuzz" "$source" \( -name '*.hpp' -o -path "$source" \) \
+      -newer "$object" -type f | head -n 1)" ]; then
+    todo="$todo $source $object"
   fi
 done
+# shellcheck disable=SC2086
+[ -z "$todo" ] || printf '%s -o %s\n' $todo | xargs -P 2 -L 1 nice "$cxx" $flags -fsanitize=fuzzer-no-link,address,undefined \
+  -fno-sanitize-recover=undefined -c
 # shellcheck disable=SC2086
 "$cxx" $flags -fsanitize=fuzzer,address,undefined $objects -o "$out/deck_fuzz" -lspdlog
 cd "$out"

@@ -101,6 +101,14 @@ TEST(Card, TitlesAndHeadings) {
   EXPECT_TRUE(read.diagnostics.ok()) << read.messages();
 }
 
+TEST(Card, HeadingInFixedColumnsMayHoldAComma) {
+  Read read("*CONSTRAINED_JOINT_REVOLUTE_ID\n        11hinge, left\n1,2,3,4\n");
+  const Card id = read.block(0).next("id");
+  EXPECT_EQ(id.integer("id"), 11);
+  EXPECT_EQ(id.text("heading"), "hinge, left");
+  EXPECT_TRUE(read.diagnostics.ok()) << read.messages();
+}
+
 TEST(Card, BlankCardsCountWithinAnEntryAndNotAtItsEnd) {
   Read read("*MAT_RIGID\n1,7.8e-9,2.1e5,0.3\n\n\n\n\n");
   Block& block = read.block(0);

@@ -32,6 +32,14 @@ bool has_separating_comma(std::string_view line) {
   return false;
 }
 
+// A heading in fixed columns may hold a comma: such a line is free format only if its first value ends at a comma.
+bool comma_is_of_heading(const CardLayout& layout, std::string_view line) {
+  const FieldLayout& last = layout.fields.back();
+  if (layout.fields.size() < 2 || last.type != 'A' || last.width[0] < 60) return false;
+  const std::string_view first = trimmed(line.substr(0, line.find(',')));
+  return !first.empty() && first[0] != '&' && parse_integer(first).state == NumberState::malformed;
+}
+
 }  // namespace
 
 // The next line that is no comment, from `cursor` on; `next_number` is the line number at the cursor.
@@ -58,7 +66,7 @@ void Block::open(Card& card, std::string_view line, int number) const {
   card.line_ = line;
   card.line_number_ = number;
   card.present_ = true;
-  card.free_ = has_commas_ && has_separating_comma(line);
+  card.free_ = has_commas_ && has_separating_comma(line) && !comma_is_of_heading(*card.layout_, line);
   card.free_position_ = 0;
   card.free_start_ = 0;
   if (!has_tabs_) return;
@@ -122,8 +130,11 @@ Card Block::next(std::string_view card_name) {
 }
 
 Card Block::next(const CardLayout& layout) {
-  Card card = next_optional("title");
+  Card card = absent("title");
   card.layout_ = &layout;
+  std::string_view line;
+  int number = 0;
+  if (take_line(line, number)) open(card, line, number);
   return card;
 }
 

@@ -163,7 +163,7 @@ class Block {
   Card next_optional(std::string_view card);
   /// next(card) if `condition`, otherwise an absent card: for option cards.
   Card next_if(bool condition, std::string_view card) { return condition ? next(card) : absent(card); }
-  /// The next data line with the layout of another keyword's card.
+  /// The next data line, if there is one, with the layout of another keyword's card.
   Card next(const CardLayout& layout);
   /// Looks at the next data line without taking it.
   Card peek(std::string_view card) const;

@@ -1,6 +1,8 @@
 // From keyword blocks to the model: every reference resolved to an index, every number in the main deck's units.
 #pragma once
 
+#include <cstddef>
+
 #include "kardan/base/diagnostics.hpp"
 #include "kardan/io/deck/deck.hpp"
 #include "kardan/model/model.hpp"
@@ -10,6 +12,8 @@ namespace kardan::deck {
 struct BuildOptions {
   /// End time of the run where it is not the deck's ENDTIM (0 = ENDTIM): functions of time are sampled up to it.
   double end_time = 0;
+  /// A function of time that needs more points than this is refused.
+  std::size_t max_curve_points = std::size_t{1} << 18;
 };
 
 /// Consumes the blocks of `deck`. Faults of the deck go into `diagnostics` (the model is then incomplete and must not

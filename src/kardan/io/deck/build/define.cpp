@@ -114,7 +114,6 @@ void build_curve(Builder& b, Block& block) {
 
 void build_curve_function(Builder& b, Block& block) {
   constexpr double tolerance = 1e-7;  // of the largest value; straight lines are exact
-  constexpr std::size_t most_points = 1u << 18;
   Curve curve;
   curve.title = title_of(block);
   const Card card = block.next("card0");
@@ -137,10 +136,11 @@ void build_curve_function(Builder& b, Block& block) {
     if (!(end > 0)) {
       card.error("lcid", "the function of time cannot be sampled: the run has no end time",
                  "give ENDTIM in *CONTROL_TERMINATION");
-    } else if (!sample(f, std::max(end / sfa - offa, 0.0), tolerance, most_points, curve)) {
+    } else if (!sample(f, std::max(end / sfa - offa, 0.0), tolerance, b.options.max_curve_points, curve)) {
       b.diagnostics.error("curve " + std::to_string(curve.id) +
                               ": the function is not finite everywhere up to the end time, or "
-                              "needs more than 262144 points",
+                              "needs more than " +
+                              std::to_string(b.options.max_curve_points) + " points",
                           "write it as *DEFINE_CURVE", block.as_written(), where);
     }
   } catch (const CurveFunctionError& error) {
