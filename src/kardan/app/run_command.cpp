@@ -47,11 +47,11 @@ void refuse(const Diagnostics& diagnostics, Log& log) {
 }
 
 /// Which files are written beyond, or short of, what the deck asks for.
-void say_files(const ResultsWriter& writer, Log& log) {
+void note_files(const ResultsWriter& writer, Diagnostics& diagnostics) {
   if (writer.defaulted())
-    log.line("notice: the deck has no *DATABASE_… request: d3plot (20 states) and glstat are written all the same");
+    diagnostics.notice("the deck has no *DATABASE_… request: d3plot (20 states) and glstat are written all the same");
   for (OutputFile file : writer.unwritten())
-    log.line(fmt::format("warning: *DATABASE_{} is asked for, but this version does not write it", to_string(file)));
+    diagnostics.warning(fmt::format("*DATABASE_{} is asked for, but this version does not write it", to_string(file)));
 }
 
 /// Where the results are and what opens them.
@@ -112,13 +112,13 @@ int run_deck(const RunRequest& request, Log& log) {
 
   const std::filesystem::path folder = request.results_folder();
   std::filesystem::create_directories(folder);
+  std::filesystem::remove(folder / "summary.json");  // of an earlier run: a killed one must not seem to have ended well
   log.open_file(folder / "kardan.log");
   log.line(fmt::format("deck: {}", request.deck.string()));
   if (!model.title.empty()) log.line(fmt::format("title: {}", model.title));
-  log.diagnostics(diagnostics);
-
   ResultFiles results(*solver, folder);
-  say_files(results.writer(), log);
+  note_files(results.writer(), diagnostics);
+  log.diagnostics(diagnostics);
   Progress progress(log);
   solver->attach(results);
   solver->attach(progress);

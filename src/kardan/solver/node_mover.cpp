@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 
@@ -11,9 +11,21 @@ namespace kardan {
 namespace {
 
 /// Fewer nodes than this are moved by one thread: waking the others costs more than it saves.
-constexpr std::ptrdiff_t parallel_threshold = 8192;
+constexpr std::size_t parallel_threshold = 8192;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// f(k) for k < count, independent of one another. Small counts never enter a parallel region: that alone takes longer
+/// than the step of a small mechanism.
+template <class F>
+void for_each_index(std::size_t count, F&& f) {
+  if (count <= parallel_threshold) {
+    for (std::size_t k = 0; k < count; ++k) f(k);
+    return;
+  }
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < count; ++k) f(k);
+}
 
 template <class Block>
 void count_parts(const Block& block, std::size_t nodes_used, std::vector<std::map<PartIndex, int>>& parts_of) {
@@ -59,17 +71,16 @@ void NodeMover::find_parts(const Model& model, const State& state) {
 void NodeMover::kick(const Model& model, State& state) {
   NodeState& nodes = state.nodes;
   const double kick = state.clock.kick();
-  const auto count = static_cast<std::ptrdiff_t>(free_.size());
-  int bad = 0;
-#pragma omp parallel for schedule(static) reduction(| : bad) if (count > parallel_threshold)
-  for (std::ptrdiff_t k = 0; k < count; ++k) {
-    const std::size_t i = at(free_[static_cast<std::size_t>(k)]);
-    v_before_[static_cast<std::size_t>(k)] = nodes.v[i];
-    omega_before_[static_cast<std::size_t>(k)] = nodes.omega[i];
+  std::atomic<bool> bad{false};
+  for_each_index(free_.size(), [&](std::size_t k) {
+    const std::size_t i = at(free_[k]);
+    v_before_[k] = nodes.v[i];
+    omega_before_[k] = nodes.omega[i];
     nodes.v[i] += nodes.force[i] * (kick / nodes.mass[i]);
     if (nodes.inertia[i] > 0) nodes.omega[i] += nodes.moment[i] * (kick / nodes.inertia[i]);
-    bad |= !std::isfinite(dot(nodes.v[i], nodes.v[i]) + dot(nodes.omega[i], nodes.omega[i]));
-  }
+    if (!std::isfinite(dot(nodes.v[i], nodes.v[i]) + dot(nodes.omega[i], nodes.omega[i])))
+      bad.store(true, std::memory_order_relaxed);
+  });
   if (bad) not_finite(model, state);
 }
 
@@ -97,29 +108,22 @@ void NodeMover::not_finite(const Model& model, State& state) {
 void NodeMover::settle(State& state) const {
   NodeState& nodes = state.nodes;
   const double kick = state.clock.kick(), share = state.clock.share_before();
-  const auto count = static_cast<std::ptrdiff_t>(free_.size());
-#pragma omp parallel for schedule(static) if (count > parallel_threshold)
-  for (std::ptrdiff_t k = 0; k < count; ++k) {
-    const std::size_t i = at(free_[static_cast<std::size_t>(k)]);
-    const Vec3& v = v_before_[static_cast<std::size_t>(k)];
-    const Vec3& omega = omega_before_[static_cast<std::size_t>(k)];
+  for_each_index(free_.size(), [&](std::size_t k) {
+    const std::size_t i = at(free_[k]);
+    const Vec3& v = v_before_[k];
+    const Vec3& omega = omega_before_[k];
     nodes.v_now[i] = v + (nodes.v[i] - v) * share;
     nodes.a[i] = (nodes.v[i] - v) / kick;
     nodes.omega_now[i] = omega + (nodes.omega[i] - omega) * share;
     nodes.alpha[i] = (nodes.omega[i] - omega) / kick;
-  }
+  });
   for (NodeIndex node : unattached_) nodes.v_now[at(node)] = nodes.v[at(node)];
 }
 
 void NodeMover::drift(State& state) const {
   NodeState& nodes = state.nodes;
   const double dt = state.clock.dt;
-  const auto count = static_cast<std::ptrdiff_t>(free_.size());
-#pragma omp parallel for schedule(static) if (count > parallel_threshold)
-  for (std::ptrdiff_t k = 0; k < count; ++k) {
-    const std::size_t i = at(free_[static_cast<std::size_t>(k)]);
-    nodes.x[i] += nodes.v[i] * dt;
-  }
+  for_each_index(free_.size(), [&](std::size_t k) { nodes.x[at(free_[k])] += nodes.v[at(free_[k])] * dt; });
   for (NodeIndex node : unattached_) nodes.x[at(node)] += nodes.v[at(node)] * dt;
 }
 
