@@ -112,6 +112,8 @@ class Simulation {
     }
     kick();
     kicked_ = true;
+    state.energy.begin(model.parts.size());
+    system->account(model, state);
     system->update_reports(model, state);
   }
 
@@ -119,11 +121,7 @@ class Simulation {
   const BodyMotion& motion(PartIndex p) const { return state.bodies.motion[static_cast<std::size_t>(body(p))]; }
   const BodyReport& report(PartIndex p) const { return state.bodies.report[static_cast<std::size_t>(body(p))]; }
 
-  double kinetic_energy() {
-    state.energy.begin(model.parts.size());
-    system->account(model, state);
-    return state.energy.kinetic;
-  }
+  double kinetic_energy() const { return state.energy.kinetic; }
   Vec3 linear_momentum() const {
     Vec3 p;
     for (std::size_t b = 0; b < state.bodies.info.size(); ++b)

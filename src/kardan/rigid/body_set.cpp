@@ -49,14 +49,14 @@ void BodySet::initialise(const State& state, std::vector<BodyConstraint> body_co
     inertia_[b] = info.principal_inertia;
     inverse_inertia_[b] = {1.0 / inertia_[b].x, 1.0 / inertia_[b].y, 1.0 / inertia_[b].z};
     mobility[b].inverse_mass = inverse_mass_[b];
+    rotation[b] = to_matrix(state.bodies.motion[b].orientation);
   }
   constraints = std::move(body_constraints);
   for (std::size_t c = 0; c < constraints.size(); ++c)
     mobility[static_cast<std::size_t>(constraints[c].body)].constraint = static_cast<Index>(c);
 }
 
-void BodySet::update(const State& state, std::size_t b) {
-  rotation[b] = to_matrix(state.bodies.motion[b].orientation);
+void BodySet::update_mobility(std::size_t b) {
   Mobility& m = mobility[b];
   if (m.constraint == none) {
     m.angular = rotated_diagonal(rotation[b], inverse_inertia_[b]);

@@ -21,6 +21,7 @@
 #include "kardan/base/rotation.hpp"
 #include "kardan/base/vec3.hpp"
 #include "kardan/rigid/body_constraint.hpp"
+#include "kardan/rigid/joint_parts.hpp"
 #include "kardan/state/state.hpp"
 
 namespace kardan {
@@ -64,8 +65,8 @@ class BodySet {
 
   std::size_t size() const { return inverse_mass_.size(); }
 
-  /// Orientation-dependent quantities at t_n: rotation, mobility. Call at the start of a kick.
-  void update(const State& state, std::size_t b);
+  /// Response to impulses at t_n from the rotation at t_n.
+  void update_mobility(std::size_t b);
   /// Angular velocity, pose at t_{n+1} from trial momenta; h = t_{n+1} - t_n.
   void advance(const State& state, std::size_t b, double h);
   /// Angular momentum that belongs to the trial's angular velocity: L of (a), with the reactions of the body's constraints.
@@ -82,6 +83,10 @@ class BodySet {
     return m.constraint == none ? p * m.inverse_mass : constraints[m.constraint].linear_mobility * p;
   }
   Vec3 angular_response(std::size_t b, const Vec3& l) const { return mobility[b].angular * l; }
+  /// row . (what the body would do under the row if it were free).
+  double free_response(std::size_t b, const JacobianSide& row) const {
+    return dot(row.linear, row.linear) * inverse_mass_[b] + dot(row.angular, inverse_inertia_times(b, row.angular));
+  }
   bool fixed(std::size_t b) const {
     return mobility[b].constraint != none && constraints[mobility[b].constraint].fixed;
   }

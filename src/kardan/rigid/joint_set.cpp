@@ -102,10 +102,12 @@ void JointSet::analyse(const BodySet& bodies) {
         const std::pair<int, int> key{list[s], list[t]};
         const auto [it, is_new] = pair_index.try_emplace(key, pairs_.size());
         if (is_new) pairs_.push_back(key);
-        terms_.push_back({it->second, static_cast<BodyIndex>(body), key.first, key.second});
+        const auto on_b = [&](int joint) { return joints[joint].b == static_cast<BodyIndex>(body); };
+        terms_.push_back({it->second, static_cast<BodyIndex>(body), key.first, key.second, on_b(key.first), on_b(key.second)});
       }
   }
-  jacobian.assign(joints.size(), {});
+  jacobian.assign(rows.size(), {});
+  arms.assign(joints.size(), {});
   failed.resize(joints.size(), 0);
   memory.resize(rows.size());
   inactive.assign(total_rows, 0);
@@ -114,25 +116,34 @@ void JointSet::analyse(const BodySet& bodies) {
 void JointSet::linearise(const State& state, const BodySet& bodies) {
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const JointRuntime& joint = joints[j];
-    JointJacobian& jac = jacobian[j];
     const Pose a = pose_now(state, bodies, joint.a), b = pose_now(state, bodies, joint.b);
     if (joint.has_point) {
       // Arms to the middle of the two points: where a penalty joint gives way, the forces on A and B still act in one line.
-      const Vec3 half = separation_vector(joint, a, b) * 0.5;
-      const Vec3 arm_a = *a.rotation * joint.arm_a + half, arm_b = *b.rotation * joint.arm_b - half;
-      for (int i = 0; i < 3; ++i) {
-        jac.a[i] = {-global_axis[i], -cross(arm_a, global_axis[i])};
-        jac.b[i] = {global_axis[i], cross(arm_b, global_axis[i])};
-      }
+      const Vec3 arm_a = *a.rotation * joint.arm_a, arm_b = *b.rotation * joint.arm_b;
+      const Vec3 half = ((b.center - a.center) + (arm_b - arm_a)) * 0.5;
+      arms[j] = {arm_a + half, arm_b - half};
     }
-    for (int r = 0; r < joint.row_count; ++r)
-      std::tie(jac.a[joint.point_rows() + r], jac.b[joint.point_rows() + r]) =
-          row_jacobian(joint, rows[joint.first_row + r], a, b);
+    for (int r = joint.first_row; r < joint.first_row + joint.row_count; ++r)
+      std::tie(jacobian[r].a, jacobian[r].b) = row_jacobian(joint, rows[r], a, b);
   }
+}
+
+int JointSet::side_rows(int joint, bool side_b, std::array<JacobianSide, 6>& out) const {
+  const JointRuntime& runtime = joints[joint];
+  int n = 0;
+  if (runtime.has_point) {
+    const double sign = side_b ? 1.0 : -1.0;
+    const Vec3& arm = side_b ? arms[joint].b : arms[joint].a;
+    for (const Vec3& e : global_axis) out[n++] = {e * sign, cross(arm, e) * sign};
+  }
+  for (int r = runtime.first_row; r < runtime.first_row + runtime.row_count; ++r)
+    out[n++] = side_b ? jacobian[r].b : jacobian[r].a;
+  return n;
 }
 
 void JointSet::assemble(const BodySet& bodies, double regularisation, BlockCholesky& matrix) const {
   matrix.clear();
+  std::array<JacobianSide, 6> row_side, column_side;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const JointRuntime& joint = joints[j];
     const int m = joint.size;
@@ -141,18 +152,14 @@ void JointSet::assemble(const BodySet& bodies, double regularisation, BlockChole
       for (int r = 0; r < m; ++r) d[r * m + r] = 1.0;
       continue;
     }
-    for (const auto& [body, side] : {std::pair{joint.a, &jacobian[j].a}, {joint.b, &jacobian[j].b}}) {
-      const auto index = static_cast<std::size_t>(body);
+    for (const bool side_b : {false, true}) {
+      const auto body = static_cast<std::size_t>(side_b ? joint.b : joint.a);
+      side_rows(static_cast<int>(j), side_b, row_side);
       for (int c = 0; c < m; ++c) {
-        const JacobianSide& row_c = (*side)[c];
-        const Vec3 linear = bodies.linear_response(index, row_c.linear);
-        const Vec3 angular = bodies.angular_response(index, row_c.angular);
-        for (int r = c; r < m; ++r) d[r * m + c] += product((*side)[r], linear, angular);
-        if (regularisation > 0) {
-          const double free = dot(row_c.linear, row_c.linear) * bodies.inverse_mass(index) +
-                              dot(row_c.angular, bodies.inverse_inertia_times(index, row_c.angular));
-          d[c * m + c] += regularisation * free;
-        }
+        const Vec3 linear = bodies.linear_response(body, row_side[c].linear);
+        const Vec3 angular = bodies.angular_response(body, row_side[c].angular);
+        for (int r = c; r < m; ++r) d[r * m + c] += product(row_side[r], linear, angular);
+        if (regularisation > 0) d[c * m + c] += regularisation * bodies.free_response(body, row_side[c]);
       }
     }
   }
@@ -160,12 +167,9 @@ void JointSet::assemble(const BodySet& bodies, double regularisation, BlockChole
     if (failed[term.first] || failed[term.second]) continue;
     const auto body = static_cast<std::size_t>(term.body);
     const BlockCholesky::Coupling& place = matrix.coupling(term.pair);
-    const auto side = [&](int j) -> const std::array<JacobianSide, 6>& {
-      return joints[j].a == term.body ? jacobian[j].a : jacobian[j].b;
-    };
-    const auto& row_side = side(place.row_block);
-    const auto& column_side = side(place.column_block);
-    const int row_size = joints[place.row_block].size, columns = joints[place.column_block].size;
+    const bool first_is_row = place.row_block == term.first;
+    const int row_size = side_rows(place.row_block, first_is_row ? term.first_on_b : term.second_on_b, row_side);
+    const int columns = side_rows(place.column_block, first_is_row ? term.second_on_b : term.first_on_b, column_side);
     double* const v = matrix.values(place);
     for (int c = 0; c < columns; ++c) {
       const Vec3 linear = bodies.linear_response(body, column_side[c].linear);
@@ -177,12 +181,16 @@ void JointSet::assemble(const BodySet& bodies, double regularisation, BlockChole
 
 std::vector<double> JointSet::times_matrix(const BodySet& bodies, const std::vector<double>& x) const {
   std::vector<Vec3> linear(bodies.size()), angular(bodies.size());
+  std::array<JacobianSide, 6> side;
   for (std::size_t j = 0; j < joints.size(); ++j)
-    for (int r = 0; r < joints[j].size; ++r)
-      for (const auto& [body, side] : {std::pair{joints[j].a, &jacobian[j].a[r]}, {joints[j].b, &jacobian[j].b[r]}}) {
-        linear[body] += side->linear * x[offset[j] + r];
-        angular[body] += side->angular * x[offset[j] + r];
+    for (const bool side_b : {false, true}) {
+      const BodyIndex body = side_b ? joints[j].b : joints[j].a;
+      const int count = side_rows(static_cast<int>(j), side_b, side);
+      for (int r = 0; r < count; ++r) {
+        linear[body] += side[r].linear * x[offset[j] + r];
+        angular[body] += side[r].angular * x[offset[j] + r];
       }
+    }
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     linear[b] = bodies.linear_response(b, linear[b]);
     angular[b] = bodies.angular_response(b, angular[b]);
@@ -278,28 +286,46 @@ void JointSet::residual_now(const State& state, const BodySet& bodies, std::size
 
 void JointSet::rates(std::size_t j, const Vec3& velocity_a, const Vec3& omega_a, const Vec3& velocity_b,
                      const Vec3& omega_b, double* c) const {
-  for (int r = 0; r < joints[j].size; ++r)
-    c[r] = product(jacobian[j].a[r], velocity_a, omega_a) + product(jacobian[j].b[r], velocity_b, omega_b);
+  const JointRuntime& joint = joints[j];
+  if (joint.has_point) {
+    const Vec3 v = velocity_b + cross(omega_b, arms[j].b) - velocity_a - cross(omega_a, arms[j].a);
+    *c++ = v.x;
+    *c++ = v.y;
+    *c++ = v.z;
+  }
+  for (int r = joint.first_row; r < joint.first_row + joint.row_count; ++r)
+    *c++ = product(jacobian[r].a, velocity_a, omega_a) + product(jacobian[r].b, velocity_b, omega_b);
 }
 
 void JointSet::apply(std::size_t j, const double* lambda, BodySet& bodies) const {
+  const JointRuntime& joint = joints[j];
   Vec3 p_a, l_a, p_b, l_b;
-  for (int r = 0; r < joints[j].size; ++r) {
-    p_a += jacobian[j].a[r].linear * lambda[r];
-    l_a += jacobian[j].a[r].angular * lambda[r];
-    p_b += jacobian[j].b[r].linear * lambda[r];
-    l_b += jacobian[j].b[r].angular * lambda[r];
+  if (joint.has_point) {
+    p_b = {lambda[0], lambda[1], lambda[2]};
+    p_a = -p_b;
+    l_b = cross(arms[j].b, p_b);
+    l_a = cross(arms[j].a, p_a);
   }
-  bodies.add_impulse(static_cast<std::size_t>(joints[j].a), p_a, l_a);
-  bodies.add_impulse(static_cast<std::size_t>(joints[j].b), p_b, l_b);
+  for (int i = 0; i < joint.row_count; ++i) {
+    const RowJacobian& row = jacobian[joint.first_row + i];
+    const double impulse = lambda[joint.point_rows() + i];
+    p_a += row.a.linear * impulse;
+    l_a += row.a.angular * impulse;
+    p_b += row.b.linear * impulse;
+    l_b += row.b.angular * impulse;
+  }
+  bodies.add_impulse(static_cast<std::size_t>(joint.a), p_a, l_a);
+  bodies.add_impulse(static_cast<std::size_t>(joint.b), p_b, l_b);
 }
 
 std::pair<Vec3, Vec3> JointSet::resultant(const BodySet& bodies, std::size_t j, const double* lambda) const {
   const JointRuntime& joint = joints[j];
+  std::array<JacobianSide, 6> side;
+  const int count = side_rows(static_cast<int>(j), true, side);
   Vec3 force, moment;
-  for (int r = 0; r < joint.size; ++r) {
-    force += jacobian[j].b[r].linear * lambda[r];
-    moment += jacobian[j].b[r].angular * lambda[r];
+  for (int r = 0; r < count; ++r) {
+    force += side[r].linear * lambda[r];
+    moment += side[r].angular * lambda[r];
   }
   return {force, moment - cross(bodies.rotation[joint.b] * joint.arm_b, force)};
 }

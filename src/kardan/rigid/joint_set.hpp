@@ -25,9 +25,14 @@ struct JointRuntime {
   int point_rows() const { return has_point ? 3 : 0; }
 };
 
-/// Jacobian of a joint at t_n: rows of both sides, the point's first.
-struct JointJacobian {
-  std::array<JacobianSide, 6> a, b;
+/// Jacobian of a scalar row at t_n.
+struct RowJacobian {
+  JacobianSide a, b;
+};
+
+/// Arms of a joint's point part at t_n, global components: its three rows are e_i on B at arm b and -e_i on A at arm a.
+struct PointArms {
+  Vec3 a, b;
 };
 
 /// Running maximum of how far joints have come apart.
@@ -48,7 +53,8 @@ class JointSet {
   std::vector<ConstraintRow> rows;
   std::vector<RowMemory> memory;      ///< by row
   std::vector<std::uint8_t> failed;   ///< by joint: holds nothing any more
-  std::vector<JointJacobian> jacobian;
+  std::vector<RowJacobian> jacobian;  ///< by row
+  std::vector<PointArms> arms;        ///< by joint
   std::vector<std::size_t> offset;    ///< first entry of each joint in arrays over all rows (forces, impulses, residuals)
   std::size_t total_rows = 0;
   std::vector<std::uint8_t> inactive; ///< by row: redundant, held by the other rows
@@ -90,10 +96,14 @@ class JointSet {
   double row_residual(const JointRuntime& joint, const ConstraintRow& row, const RowMemory& m, const Pose& a,
                       const Pose& b, double turned_a, double turned_b) const;
 
+  /// Rows of one side of a joint, the point's first; @return their number.
+  int side_rows(int joint, bool side_b, std::array<JacobianSide, 6>& out) const;
+
   struct CouplingTerm {  ///< adds J_row W_body J_column^T to a pair's block
     std::size_t pair;
     BodyIndex body;
-    int first, second;   ///< joints of the pair
+    int first, second;             ///< joints of the pair
+    bool first_on_b, second_on_b;  ///< which side of each the body is
   };
   std::vector<int> sizes_;
   std::vector<std::pair<int, int>> pairs_;

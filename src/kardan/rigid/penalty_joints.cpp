@@ -83,7 +83,8 @@ void PenaltyJoints::refresh(const JointSet& joints, const BodySet& bodies, doubl
 }
 
 void PenaltyJoints::apply(const State& state, JointSet& joints, BodySet& bodies, double kick, double h) {
-  if (age_++ >= refresh_cycles || h != refreshed_dt_) refresh(joints, bodies, h);
+  if (refresh_due(h)) refresh(joints, bodies, h);
+  ++age_;
   for (std::size_t j = 0; j < joints.joints.size(); ++j) {
     const JointRuntime& joint = joints.joints[j];
     double* const lambda = force.data() + joints.offset[j];

@@ -29,6 +29,8 @@ class PenaltyJoints {
 
   void initialise(const Model& model, const JointSet& joints, Diagnostics& diagnostics);
 
+  /// The next apply() will need the mobilities of the bodies.
+  bool refresh_due(double h) const { return age_ >= refresh_cycles || h != refreshed_dt_; }
   /// Adds the impulses of the springs and dampers to the trial momenta. Call after the Jacobians at t_n stand.
   void apply(const State& state, JointSet& joints, BodySet& bodies, double kick, double h);
 

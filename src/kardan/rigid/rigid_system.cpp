@@ -41,9 +41,8 @@ struct RigidSystem::Impl {
   void gather_forces(State& state) const;
   void set_trial(const State& state);
   void solve_joints(const Model& model, State& state);
-  void fill_body_reports(State& state);
-  void take_velocities(State& state) const;         ///< of bodies and needed nodes, at t_{n+1/2}
-  Vec3 node_position(std::size_t needed_index) const;  ///< at t_{n+1}
+  void check_rotation(const State& state) const;
+  void fill_body_reports(State& state) const;
   const std::vector<double>& row_forces() const { return holding == JointHolding::exact ? exact.force : penalty.force; }
   const JointSeparation& separation() const { return holding == JointHolding::exact ? exact.largest : penalty.largest; }
 };
@@ -95,7 +94,7 @@ void RigidSystem::set_initial_velocities(const Model& model, State& state, Diagn
     return 0.5 * state.bodies.info[b].mass * dot(v, v) + 0.5 * dot(w, s.bodies.inertia_times(b, w));
   };
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-    s.bodies.update(state, b);
+    s.bodies.update_mobility(b);
     const BodyMotion& m = state.bodies.motion[b];
     s.bodies.trial[b].velocity = m.velocity;
     s.bodies.trial[b].angular_momentum = s.bodies.inertia_times(b, m.angular_velocity);
@@ -172,8 +171,26 @@ void RigidSystem::Impl::set_trial(const State& state) {
   }
 }
 
+void RigidSystem::Impl::check_rotation(const State& state) const {
+  const double limit = 1.0 / (state.clock.dt * state.clock.dt);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const BodyTrial& t = bodies.trial[b];
+    // Not-a-number in either sum fails the comparison too.
+    if (dot(t.angular_velocity, t.angular_velocity) <= limit && dot(t.center, t.center) < 1e300) continue;
+    const Vec3& x = state.bodies.motion[b].center;
+    throw RunError(fmt::format("body {} at ({:.6g}, {:.6g}, {:.6g}) turns by {:.3g} rad in one step of {:.3g} at t = {:.6g} (velocity "
+                               "{:.4g}, angular velocity {:.4g}): the time step is too long, or a force has gone wild",
+                               state.bodies.info[b].id, x.x, x.y, x.z, norm(t.angular_velocity) * state.clock.dt,
+                               state.clock.dt, state.clock.time, norm(t.velocity), norm(t.angular_velocity)));
+  }
+}
+
 void RigidSystem::Impl::solve_joints(const Model& model, State& state) {
   const double kick = state.clock.kick(), h = state.clock.dt;
+  // Only the matrix of the joints asks for the response of free bodies; penalty joints refresh it now and then.
+  const bool matrix_wanted = holding == JointHolding::exact ? !joints.joints.empty() : penalty.refresh_due(h);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (matrix_wanted || bodies.mobility[b].constraint != none) bodies.update_mobility(b);
   if (joints.joints.empty()) {
     for (std::size_t b = 0; b < bodies.size(); ++b) bodies.advance(state, b, h);
     return;
@@ -189,24 +206,19 @@ void RigidSystem::Impl::solve_joints(const Model& model, State& state) {
   }
 }
 
-void RigidSystem::Impl::fill_body_reports(State& state) {
+void RigidSystem::Impl::fill_body_reports(State& state) const {
   const double kick = state.clock.kick(), share = state.clock.share_before();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const BodyMotion& before = state.bodies.motion[b];
     const BodyTrial& after = bodies.trial[b];
-    const double turn = norm(after.angular_velocity) * state.clock.dt;
-    if (!(turn <= 1.0) || !std::isfinite(dot(after.center, after.center)))
-      throw RunError(fmt::format("body {} at ({:.6g}, {:.6g}, {:.6g}) turns by {:.3g} rad in one step of {:.3g} at t = {:.6g} "
-                                 "(velocity {:.4g}, angular velocity {:.4g}): the time step is too long, or a force has gone wild",
-                                 state.bodies.info[b].id, before.center.x, before.center.y, before.center.z, turn,
-                                 state.clock.dt, state.clock.time, norm(after.velocity), norm(after.angular_velocity)));
     BodyReport& r = state.bodies.report[b];
-    const Vec3 momentum_after = bodies.angular_momentum_after(b, state.clock.dt);
     r.velocity = before.velocity + (after.constrained_velocity - before.velocity) * share;
-    r.angular_velocity = bodies.inverse_inertia_times(
-        b, before.angular_momentum + (momentum_after - before.angular_momentum) * share);
-    if (bodies.mobility[b].constraint != none)
+    if (bodies.mobility[b].constraint != none) {
       r.angular_velocity = before.angular_velocity + (after.angular_velocity - before.angular_velocity) * share;
+    } else {
+      const Vec3 momentum = before.angular_momentum + (after.angular_momentum - before.angular_momentum) * share;
+      r.angular_velocity = bodies.inverse_inertia_times(b, momentum);
+    }
     r.acceleration = (after.constrained_velocity - before.velocity) / kick;
     r.angular_acceleration = (after.angular_velocity - before.angular_velocity) / kick;
     r.force = state.bodies.force[b];
@@ -217,53 +229,42 @@ void RigidSystem::Impl::fill_body_reports(State& state) {
 void RigidSystem::kick(const Model& model, State& state) {
   Impl& s = *impl_;
   KARDAN_ASSERT(s.needed_listed);
-  for (std::size_t b = 0; b < s.bodies.size(); ++b) s.bodies.rotation[b] = to_matrix(state.bodies.motion[b].orientation);
   s.gather_forces(state);
   s.stiffness.apply(model, state, s.bodies, s.joints, s.row_forces());
   s.set_trial(state);
   s.motions.prescribe(model, state, s.bodies, false);
-  for (std::size_t b = 0; b < s.bodies.size(); ++b) s.bodies.update(state, b);
   s.solve_joints(model, state);
-  s.fill_body_reports(state);
+  s.check_rotation(state);
   s.motions.account(state, s.bodies);
   s.motors.account(s.joints, s.row_forces(), state.clock);
   for (Index j : s.failure.check(model, state, s.joints, s.bodies, s.row_forces()))
     spdlog::info("joint {} ({}) fails at t = {:.6g}", model.joints[j].id, to_string(model.joints[j].kind), state.clock.time);
-  s.take_velocities(state);
-}
-
-void RigidSystem::Impl::take_velocities(State& state) const {
-  const double h = state.clock.dt;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    BodyMotion& m = state.bodies.motion[b];
-    const BodyTrial& t = bodies.trial[b];
-    m.angular_momentum = bodies.angular_momentum_after(b, h);
-    m.velocity = t.constrained_velocity;
-    m.angular_velocity = t.angular_velocity;
-  }
-  // Eq. (12): velocities of nodes from their positions.
-  for (std::size_t k = 0; k < needed.size(); ++k) {
-    const auto b = static_cast<std::size_t>(needed_body[k]);
-    const NodeIndex n = assembly.nodes.node[needed[k]];
-    state.nodes.v[n] = (node_position(k) - state.nodes.x[n]) / h;
-    state.nodes.omega[n] = bodies.trial[b].angular_velocity;
-  }
-}
-
-Vec3 RigidSystem::Impl::node_position(std::size_t k) const {
-  const BodyTrial& t = bodies.trial[static_cast<std::size_t>(needed_body[k])];
-  return t.center + t.rotation * assembly.nodes.arm[needed[k]];
 }
 
 void RigidSystem::drift(const Model&, State& state) {
   Impl& s = *impl_;
-  s.joints.remember_step(s.bodies, state.clock.dt);
+  const double h = state.clock.dt;
+  s.joints.remember_step(s.bodies, h);
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-    state.bodies.motion[b].center = s.bodies.trial[b].center;
-    state.bodies.motion[b].orientation = s.bodies.trial[b].orientation;
+    BodyMotion& m = state.bodies.motion[b];
+    const BodyTrial& t = s.bodies.trial[b];
+    m.angular_momentum = s.bodies.angular_momentum_after(b, h);
+    m.velocity = t.constrained_velocity;
+    m.angular_velocity = t.angular_velocity;
+    m.center = t.center;
+    m.orientation = t.orientation;
+    s.bodies.rotation[b] = t.rotation;
   }
-  for (std::size_t k = 0; k < s.needed.size(); ++k)  // eq. (9)
-    state.nodes.x[s.assembly.nodes.node[s.needed[k]]] = s.node_position(k);
+  // Eqs. (9) and (12): positions from the pose, velocities from the positions.
+  const BodyNodes& nodes = s.assembly.nodes;
+  for (std::size_t k = 0; k < s.needed.size(); ++k) {
+    const auto b = static_cast<std::size_t>(s.needed_body[k]);
+    const NodeIndex n = nodes.node[s.needed[k]];
+    const Vec3 x = s.bodies.trial[b].center + s.bodies.trial[b].rotation * nodes.arm[s.needed[k]];
+    state.nodes.v[n] = (x - state.nodes.x[n]) / h;
+    state.nodes.x[n] = x;
+    state.nodes.omega[n] = s.bodies.trial[b].angular_velocity;
+  }
 }
 
 void RigidSystem::update_reports(const Model&, State& state) const {
@@ -301,6 +302,7 @@ void RigidSystem::update_reports(const Model&, State& state) const {
 
 void RigidSystem::account(const Model&, State& state) {
   Impl& s = *impl_;
+  s.fill_body_reports(state);
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     const BodyReport& r = state.bodies.report[b];
     const BodyInfo& info = state.bodies.info[b];

@@ -37,13 +37,15 @@ class RigidSystem {
   double default_time_step(const Model& model, const State& state) const;
 
   /// Momenta to t_{n+1/2}: resultants of state.nodes.force (needed nodes) and state.bodies.force, joint stiffnesses,
-  /// joints. Fills the reports at t_n. @throws RunError naming the body where |omega| dt > 1 or a value is not finite.
+  /// joints. @throws RunError naming the body where |omega| dt > 1 or a value is not finite.
   void kick(const Model& model, State& state);
   /// Poses to t_{n+1}, and with them x and v of the needed nodes.
   void drift(const Model& model, State& state);
   /// Brings x, v, omega, v_now and a of all nodes of bodies, and the joints' reports, up to date at t_n (before output).
   void update_reports(const Model& model, State& state) const;
-  /// Energies at t_n into state.energy: kinetic energy of the bodies by part, joints, stoppers, work of motions.
+  /// Reports of the bodies and energies at t_n into state.bodies.report and state.energy: kinetic energy of the bodies by
+  /// part, joints, stoppers, work of motions and motors. Needed only in cycles that somebody looks at; call it after kick()
+  /// and before update_reports().
   void account(const Model& model, State& state);
 
   /// Largest separation of any joint so far, and the joint's index (none if there is no joint).
