@@ -64,13 +64,12 @@ std::pair<JacobianSide, JacobianSide> row_jacobian(const JointRuntime& joint, co
 
 /// Rotations of A and B that a coupling counts in the step to the trial poses.
 std::pair<double, double> step_rotations(const BodySet& bodies, const JointRuntime& joint, const ConstraintRow& row,
-                                         double h) {
+                                         const Vec3& omega_a, const Vec3& omega_b, double h) {
   const Vec3 axis_a = bodies.rotation[joint.a] * row.axis_a;
   // B about the axis of A: the mean of the axis before and after the step, so that the step can be taken back.
   const Vec3 axis_b = row.k_d != 0 ? 0.5 * (axis_a + bodies.trial[joint.a].rotation * row.axis_a)
                                    : bodies.rotation[joint.b] * row.axis_b;
-  return {rotation_about(bodies.trial[joint.a].angular_velocity, axis_a, h),
-          rotation_about(bodies.trial[joint.b].angular_velocity, axis_b, h)};
+  return {rotation_about(omega_a, axis_a, h), rotation_about(omega_b, axis_b, h)};
 }
 
 double product(const JacobianSide& row, const Vec3& linear, const Vec3& angular) {
@@ -265,7 +264,9 @@ void JointSet::residual_at_trial(const BodySet& bodies, std::size_t j, double h,
   for (int r = 0; r < joint.row_count; ++r) {
     const ConstraintRow& row = rows[joint.first_row + r];
     double turned_a = 0, turned_b = 0;
-    if (row.kind == ConstraintRow::Kind::coupling) std::tie(turned_a, turned_b) = step_rotations(bodies, joint, row, h);
+    if (row.kind == ConstraintRow::Kind::coupling)
+      std::tie(turned_a, turned_b) = step_rotations(bodies, joint, row, bodies.trial[joint.a].angular_velocity,
+                                                    bodies.trial[joint.b].angular_velocity, h);
     c[joint.point_rows() + r] = row_residual(joint, row, memory[joint.first_row + r], a, b, turned_a, turned_b);
   }
 }
@@ -346,12 +347,14 @@ std::pair<double, double> JointSet::separation(std::size_t j, const double* c) c
   return {std::sqrt(distance), std::sqrt(angle)};
 }
 
-void JointSet::remember_step(const BodySet& bodies, double h) {
+void JointSet::remember_step(const State& state, const BodySet& bodies, double h) {
   for (const JointRuntime& joint : joints)
     for (int r = joint.first_row; r < joint.first_row + joint.row_count; ++r) {
       const ConstraintRow& row = rows[r];
       if (row.kind == ConstraintRow::Kind::coupling) {
-        const auto [turned_a, turned_b] = step_rotations(bodies, joint, row, h);
+        const auto [turned_a, turned_b] =
+            step_rotations(bodies, joint, row, state.bodies.motion[joint.a].angular_velocity,
+                           state.bodies.motion[joint.b].angular_velocity, h);
         memory[r].angle_a += turned_a;
         memory[r].angle_b += turned_b;
       } else if (row.kind == ConstraintRow::Kind::twist) {

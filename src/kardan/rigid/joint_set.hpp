@@ -89,8 +89,8 @@ class JointSet {
   double row_scale(std::size_t j, int row) const;
   /// Distance and angle by which a residual misses zero.
   std::pair<double, double> separation(std::size_t j, const double* c) const;
-  /// Sums the rotations of coupled rows over the step just taken (trial poses).
-  void remember_step(const BodySet& bodies, double h);
+  /// Sums the rotations of coupled rows over the step to the trial poses; motion holds the velocities at t_{n+1/2}.
+  void remember_step(const State& state, const BodySet& bodies, double h);
 
  private:
   double row_residual(const JointRuntime& joint, const ConstraintRow& row, const RowMemory& m, const Pose& a,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "kardan/rigid/body_assembly.hpp"
 #include "kardan/rigid/body_motions.hpp"
@@ -42,6 +43,7 @@ struct RigidSystem::Impl {
   void set_trial(const State& state);
   void solve_joints(const Model& model, State& state);
   void check_rotation(const State& state) const;
+  void take_velocities(State& state);  ///< of bodies and needed nodes, at t_{n+1/2}
   void fill_body_reports(State& state) const;
   const std::vector<double>& row_forces() const { return holding == JointHolding::exact ? exact.force : penalty.force; }
   const JointSeparation& separation() const { return holding == JointHolding::exact ? exact.largest : penalty.largest; }
@@ -206,20 +208,42 @@ void RigidSystem::Impl::solve_joints(const Model& model, State& state) {
   }
 }
 
+void RigidSystem::Impl::take_velocities(State& state) {
+  const double h = state.clock.dt;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    BodyMotion& m = state.bodies.motion[b];
+    BodyTrial& t = bodies.trial[b];
+    const Vec3 momentum = bodies.angular_momentum_after(b, h);
+    // The trial keeps the velocities at t_{n-1/2}, which the reports at t_n need.
+    t.velocity = m.velocity;
+    t.angular_momentum = m.angular_momentum;
+    m.velocity = t.constrained_velocity;
+    m.angular_momentum = momentum;
+    std::swap(m.angular_velocity, t.angular_velocity);
+  }
+  // Eqs. (9) and (12): velocities of nodes from the positions at both ends of the step.
+  for (std::size_t k = 0; k < needed.size(); ++k) {
+    const NodeIndex n = assembly.nodes.node[needed[k]];
+    const BodyTrial& t = bodies.trial[needed_body[k]];
+    state.nodes.v[n] = (t.center + t.rotation * assembly.nodes.arm[needed[k]] - state.nodes.x[n]) / h;
+    state.nodes.omega[n] = state.bodies.motion[needed_body[k]].angular_velocity;
+  }
+}
+
 void RigidSystem::Impl::fill_body_reports(State& state) const {
   const double kick = state.clock.kick(), share = state.clock.share_before();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const BodyMotion& before = state.bodies.motion[b];
-    const BodyTrial& after = bodies.trial[b];
+    const BodyMotion& after = state.bodies.motion[b];
+    const BodyTrial& before = bodies.trial[b];
     BodyReport& r = state.bodies.report[b];
-    r.velocity = before.velocity + (after.constrained_velocity - before.velocity) * share;
+    r.velocity = before.velocity + (after.velocity - before.velocity) * share;
     if (bodies.mobility[b].constraint != none) {
       r.angular_velocity = before.angular_velocity + (after.angular_velocity - before.angular_velocity) * share;
     } else {
       const Vec3 momentum = before.angular_momentum + (after.angular_momentum - before.angular_momentum) * share;
       r.angular_velocity = bodies.inverse_inertia_times(b, momentum);
     }
-    r.acceleration = (after.constrained_velocity - before.velocity) / kick;
+    r.acceleration = (after.velocity - before.velocity) / kick;
     r.angular_acceleration = (after.angular_velocity - before.angular_velocity) / kick;
     r.force = state.bodies.force[b];
     r.moment = state.bodies.moment[b];
@@ -239,31 +263,22 @@ void RigidSystem::kick(const Model& model, State& state) {
   s.motors.account(s.joints, s.row_forces(), state.clock);
   for (Index j : s.failure.check(model, state, s.joints, s.bodies, s.row_forces()))
     spdlog::info("joint {} ({}) fails at t = {:.6g}", model.joints[j].id, to_string(model.joints[j].kind), state.clock.time);
+  s.take_velocities(state);
 }
 
 void RigidSystem::drift(const Model&, State& state) {
   Impl& s = *impl_;
-  const double h = state.clock.dt;
-  s.joints.remember_step(s.bodies, h);
+  s.joints.remember_step(state, s.bodies, state.clock.dt);
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     BodyMotion& m = state.bodies.motion[b];
     const BodyTrial& t = s.bodies.trial[b];
-    m.angular_momentum = s.bodies.angular_momentum_after(b, h);
-    m.velocity = t.constrained_velocity;
-    m.angular_velocity = t.angular_velocity;
     m.center = t.center;
     m.orientation = t.orientation;
     s.bodies.rotation[b] = t.rotation;
   }
-  // Eqs. (9) and (12): positions from the pose, velocities from the positions.
-  const BodyNodes& nodes = s.assembly.nodes;
   for (std::size_t k = 0; k < s.needed.size(); ++k) {
-    const auto b = static_cast<std::size_t>(s.needed_body[k]);
-    const NodeIndex n = nodes.node[s.needed[k]];
-    const Vec3 x = s.bodies.trial[b].center + s.bodies.trial[b].rotation * nodes.arm[s.needed[k]];
-    state.nodes.v[n] = (x - state.nodes.x[n]) / h;
-    state.nodes.x[n] = x;
-    state.nodes.omega[n] = s.bodies.trial[b].angular_velocity;
+    const BodyTrial& t = s.bodies.trial[s.needed_body[k]];
+    state.nodes.x[s.assembly.nodes.node[s.needed[k]]] = t.center + t.rotation * s.assembly.nodes.arm[s.needed[k]];
   }
 }
 

@@ -39,7 +39,7 @@ class RigidSystem {
   /// Momenta to t_{n+1/2}: resultants of state.nodes.force (needed nodes) and state.bodies.force, joint stiffnesses,
   /// joints. @throws RunError naming the body where |omega| dt > 1 or a value is not finite.
   void kick(const Model& model, State& state);
-  /// Poses to t_{n+1}, and with them x and v of the needed nodes.
+  /// Poses to t_{n+1}, and with them x of the needed nodes.
   void drift(const Model& model, State& state);
   /// Brings x, v, omega, v_now and a of all nodes of bodies, and the joints' reports, up to date at t_n (before output).
   void update_reports(const Model& model, State& state) const;

@@ -125,11 +125,13 @@ bool Solver::step() {
     loads_->constrain_velocities(model_, state_);
     nodes_->settle(state_);
     timers_.lap(Phase::nodes);
+    stop_ = reason_to_stop();
+    find_due_observers();
     account();
     timers_.lap(Phase::ledger);
-    stop_ = reason_to_stop();
   } catch (const RunError&) {
     stop_ = StopReason::broken;
+    find_due_observers();
     notify();
     throw;
   }
@@ -166,12 +168,20 @@ void Solver::choose_time_step() {
 
 void Solver::account() {
   EnergyLedger& energy = state_.energy;
-  energy.begin(model_.parts.size());
+  const double end_energy = model_.control.termination.end_energy;
+  // Work is summed every cycle; the energies at t_n only where somebody looks at them.
+  const bool looked_at = !due_.empty() || state_.clock.cycle == 0 || end_energy > 0 || stop_ != StopReason::running;
+  if (looked_at) energy.begin(model_.parts.size());
   loads_->account(model_, state_);
   elements_->account(model_, state_);
+  if (!looked_at) return;
   rigid_->account(model_, state_);
   nodes_->account(state_);
   if (state_.clock.cycle == 0) energy.initial = energy.total();
+  if (end_energy > 0 && stop_ == StopReason::running && std::abs(energy.ratio() - 1) * 100 > end_energy) {
+    stop_ = StopReason::energy;
+    find_due_observers();
+  }
 }
 
 StopReason Solver::reason_to_stop() const {
@@ -179,19 +189,23 @@ StopReason Solver::reason_to_stop() const {
   if (state_.clock.time >= end_time_) return StopReason::end_time;
   if (termination.end_cycle > 0 && state_.clock.cycle >= termination.end_cycle) return StopReason::end_cycle;
   if (!step_.to_end && state_.clock.dt < termination.dt_min * first_dt_) return StopReason::min_step;
-  if (termination.end_energy > 0 && std::abs(state_.energy.ratio() - 1) * 100 > termination.end_energy)
-    return StopReason::energy;
   if (stop_requested_.load(std::memory_order_relaxed)) return StopReason::interrupted;
   return StopReason::running;
 }
 
 StepView Solver::view() const { return {step_, timers_, end_time_, stop_, elements_processed_}; }
 
+void Solver::find_due_observers() {
+  const StepView now = view();
+  due_.clear();
+  for (Observer* observer : observers_)
+    if (now.last() || observer->due(state_, now)) due_.push_back(observer);
+}
+
 void Solver::notify() {
   const StepView now = view();
   bool reports_current = false;
-  for (Observer* observer : observers_) {
-    if (!now.last() && !observer->due(state_, now)) continue;
+  for (Observer* observer : due_) {
     if (!reports_current && observer->reads_nodes()) {
       rigid_->update_reports(model_, state_);
       reports_current = true;

@@ -81,6 +81,7 @@ class Solver {
   void choose_time_step();
   void account();
   StopReason reason_to_stop() const;
+  void find_due_observers();
   void notify();
 
   const Model& model_;
@@ -98,6 +99,7 @@ class Solver {
   StopReason stop_ = StopReason::running;
   std::atomic<bool> stop_requested_{false};
   std::vector<Observer*> observers_;
+  std::vector<Observer*> due_;  ///< those that look at this cycle
   PhaseTimers<Phase> timers_;
 };
 
