@@ -197,6 +197,10 @@ void build_history(Builder& b, Block& block) {
         l->push_back(i);
     }
   };
+  if (block.has("ID") && block.info->find_card("named") == nullptr) {
+    block.error("has no option ID here", "leave _ID out, or list the members with *DATABASE_HISTORY_NODE_ID");
+    return;
+  }
   if (block.has("ID")) {
     block.for_each("named", [&](const Card& card) { add(card, "id1"); });
     return;
