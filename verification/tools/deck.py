@@ -50,11 +50,15 @@ GLOBAL = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]  # three axes, each as a row
 class Deck:
     """One deck. Bodies are *PART_INERTIA parts shown by one hexahedron each; joint points are extra nodes of the bodies."""
 
-    def __init__(self, title, about, end, dt, outputs):
+    def __init__(self, title, about, end, dt, outputs, total_moments=True):
         self.title, self.about, self.end, self.dt, self.outputs = title, about, end, dt, outputs
         self.nodes, self.solids, self.extra = [], [], {}
         self.parts, self.joints, self.rest = [], [], []
         self.grounded = False
+        self.rigid_card = (["$ LMF = 1: joints are held exactly (Lagrange multipliers); JNTF = 1: total angles", "*CONTROL_RIGID", "1,1"]
+                           if total_moments else
+                           ["$ LMF = 1: joints are held exactly (Lagrange multipliers); JNTF = 0: angles summed by step",
+                            "*CONTROL_RIGID", "1,0"])
 
     def node(self, x, body=None):
         """Adds a node, as an extra node of `body` where that is given; returns its id."""
@@ -131,7 +135,7 @@ class Deck:
               "*CONTROL_TERMINATION", card(self.end, 0),
               "$ DTINIT, TSSFAC, ISDO, TSLIMT, DT2MS, LCTM", "*CONTROL_TIMESTEP", card(self.dt, 0, 0, 0, 0, 9),
               "$ curve 9: the largest time step", "*DEFINE_CURVE", "9", f"0,{num(self.dt)}", f"1e6,{num(self.dt)}"]
-        o += ["$ LMF = 1: joints are held exactly (Lagrange multipliers); JNTF = 1: total moments", "*CONTROL_RIGID", "1,1"]
+        o += self.rigid_card
         for name in ("GLSTAT", "RBDOUT", "JNTFORC"):
             o += ["*DATABASE_" + name, card(self.outputs, 0)]
         o += ["*DATABASE_BINARY_D3PLOT", card(self.end / 50, 0), "$", "*SECTION_SOLID", "1,1",

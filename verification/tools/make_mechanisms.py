@@ -212,9 +212,10 @@ is given in the axes of the plane (down, across, normal).""", 1, 1e-5, 1e-3)
     down, normal = [math.cos(t), 0, -math.sin(t)], [math.sin(t), 0, math.cos(t)]
     for name, mu in (("frictionless.k", 0), ("friction.k", 0.2)):
         k = Deck(f"Translational joint on an incline, mu = {mu}", f"""A body on a slide (translational joint) inclined by 30 degrees, from rest, mu = {mu}."""
-                 + ("" if not mu else """
+                 + ("""
 Friction: *CONSTRAINED_JOINT_STIFFNESS_TRANSLATIONAL along the slide's axis (x of the frames); the normal force is
-constant, so the limit FFX is mu m g cos 30. The friction spring of 1e7 N/m slips at the limit."""), 1, 1e-5, 1e-3)
+constant, so the limit FFX is mu m g cos 30. The friction spring is as stiff as the step of 1e-6 s allows (4e12 N/m),
+so that it slips from the first step on.""" if mu else ""), 1, 1e-6 if mu else 1e-5, 1e-3)
         k.ground(1)
         k.body(2, "slider", 2.0, [0, 0, 0], diag(0.02, 0.02, 0.02), (0.05, 0.03, 0.03), [down, Y, normal])
         k.joint("translational", 1, "slide", 1, 2, [[0, 0, 0], scale(0.1, down), [0, 0.1, 0]])
@@ -222,7 +223,7 @@ constant, so the limit FFX is mu m g cos 30. The friction spring of 1e7 N/m slip
         if mu:
             frames(k, [(31, 1, [0, 0, 0], down), (32, 2, [0, 0, 0], down)])
             k.text("*CONSTRAINED_JOINT_STIFFNESS_TRANSLATIONAL", "1,1,2,31,32", "0,0,0,0,0,0",
-                   card(1e7, mu * 2 * 9.81 * math.cos(t), 0, 0, 0, 0), "0,0,0,0,0,0")
+                   card(4e12, mu * 2 * 9.81 * math.cos(t), 0, 0, 0, 0), "0,0,0,0,0,0")
         k.write(path("translational_incline", name))
 
 
@@ -265,15 +266,20 @@ def stops():
     k.text(*stiffness(500, 0, -30, 30))
     k.write(path("stop_pendulum", "pendulum.k"))
 
+    for name, total in (("spindown.k", False), ("spindown_total.k", True)):
+        spin_down(name, total, stiffness)
+
+
+def spin_down(name, total, stiffness):
     k = Deck("Coulomb spin-down", """A flywheel of 0.05 kg m2 at 20 rad/s is braked by a friction moment of 0.5 N m: it stops after 2 s and 20 rad.
-The friction spring of 1e5 N m/rad slips at the limit.""", 3, 1e-5, 1e-3)
+The friction spring of 1e5 N m/rad slips at the limit.""", 3, 5e-6, 1e-3, total_moments=total)
     k.ground(1)
     k.body(2, "flywheel", 1.0, [0, 0, 0], diag(0.05, 0.05, 0.05), (0.02, 0.1, 0.1))
     k.joint("revolute", 1, "axle", 1, 2, [[0, 0, 0], [0.1, 0, 0]])
     k.initial(2, [0, 0, 0], [20, 0, 0])
     frames(k, [(31, 1, [0, 0, 0], X), (32, 2, [0, 0, 0], X)])
     k.text(*stiffness(1e5, 0.5, 0, 0))
-    k.write(path("coulomb_spindown", "spindown.k"))
+    k.write(path("coulomb_spindown", name))
 
 
 def chain(n):
