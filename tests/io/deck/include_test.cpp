@@ -1,6 +1,8 @@
 // *INCLUDE and its kin: finding files, circles, shifted IDs, unit factors, transformations.
 #include "deck_test_tools.hpp"
 
+#include <sys/stat.h>
+
 #include <cmath>
 
 namespace kardan::deck {
@@ -65,6 +67,8 @@ TEST(Include, MissingDeckUtf16AndTextBeforeTheFirstKeyword) {
   TemporaryFolder folder;
   EXPECT_EQ(Read(folder.path() / "none.k").diagnostics.error_count(), 1u);
   EXPECT_EQ(Read(folder.path()).diagnostics.error_count(), 1u);
+  ASSERT_EQ(mkfifo((folder.path() / "pipe.k").c_str(), 0600), 0);
+  EXPECT_EQ(Read(folder.path() / "pipe.k").diagnostics.error_count(), 1u) << "and it does not wait for a writer";
   EXPECT_NE(find_message(Read(std::string("\xFF\xFE*\0N\0", 6)).diagnostics, Severity::error, "UTF-16"), nullptr);
   Read read(std::string("$ fine\n\nstray text\n*KEYWORD\n"));
   ASSERT_EQ(read.diagnostics.error_count(), 1u);

@@ -1,6 +1,8 @@
 // What happens to keywords that are unknown, not needed, or stop a run.
 #include "deck_test_tools.hpp"
 
+#include <ctime>
+
 namespace kardan::deck {
 namespace {
 
@@ -26,6 +28,15 @@ TEST(Keyword, UnknownIsAnErrorWithAGuess) {
   EXPECT_EQ(d.where.line, 2);
   EXPECT_EQ(d.keyword, "*CONSTRAINED_JOINT_REVOLUT");
   EXPECT_EQ(d.cure, "did you mean *CONSTRAINED_JOINT_REVOLUTE?");
+}
+
+TEST(Keyword, ThousandsOfUnknownKeywordsTakeNoTime) {
+  std::string text;
+  for (int i = 0; i < 100'000; ++i) text += "*UNKNOWN_KEYWORD_NUMBER_" + std::to_string(i) + "\n";
+  const std::clock_t start = std::clock();
+  Read read(text);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 10.0);
+  EXPECT_EQ(read.diagnostics.error_count(), 100'000u);
 }
 
 TEST(Keyword, UnknownOptionIsAnError) {

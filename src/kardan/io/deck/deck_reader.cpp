@@ -174,7 +174,9 @@ bool DeckReader::stopped(const Block& block) {
 
 void DeckReader::unknown(const Block& block) {
   if (!named_.insert(block.as_written_).second) return;
-  const std::string near = Schema::instance().nearest(std::string_view(block.as_written_).substr(1));
+  // Guessing is slow; beyond the errors that are shown it is left out.
+  const bool shown = diagnostics_.error_count() < Diagnostics::error_limit;
+  const std::string near = shown ? Schema::instance().nearest(std::string_view(block.as_written_).substr(1)) : std::string();
   diagnostics_.error("unknown keyword; it may change the physics, so it is not passed over",
                      near.empty() ? "docs/keywords.md lists what Kardan honours" : fmt::format("did you mean *{}?", near), block.as_written_,
                      block.where);
