@@ -1,6 +1,6 @@
 #include "kardan/app/isa.hpp"
 
-#include <cstdlib>
+#include "kardan/base/isa.hpp"
 
 namespace kardan::app {
 
@@ -17,12 +17,8 @@ std::optional<Isa> isa_from(const std::string& name) {
   return std::nullopt;
 }
 
-Isa native_isa() {
-  if (__builtin_cpu_supports("x86-64-v4")) return Isa::v4;
-  if (__builtin_cpu_supports("x86-64-v3")) return Isa::v3;
-  return Isa::v2;
-}
+Isa native_isa() { return native_level() >= 4 ? Isa::v4 : (native_level() == 3 ? Isa::v3 : Isa::v2); }
 
-void use_isa(Isa isa) { setenv("KARDAN_ISA", to_string(isa), 1); }  // what elements/ chooses its kernels by
+void use_isa(Isa isa) { set_kernel_level(static_cast<int>(isa) + lowest_kernel_level); }
 
 }  // namespace kardan::app

@@ -48,8 +48,7 @@ struct ShellTileWork {
 
 using ShellKernel = void (*)(ShellTileWork&);
 
-/// The Belytschko-Tsay kernel with MAT_ELASTIC, for the best instruction set of this processor, or for the one the environment
-/// variable KARDAN_ISA names (x86-64-v2, -v3, -v4) if the processor has it.
+/// The Belytschko-Tsay kernel with MAT_ELASTIC for kernel_level() (base/isa.hpp).
 ShellKernel belytschko_tsay_elastic();
 
 }  // namespace kardan
