@@ -12,10 +12,14 @@
 // Redundant constraints (a planar four-bar with four revolutes has three too many) make A singular. Rows whose pivot
 // vanishes in a trial factorisation are left out of the solution; the other rows hold them. Their residual is watched all
 // the same: where one opens - a mechanism that started in a singular position and has left it - the rows are chosen anew.
-// The multipliers are then not unique; for the reports they are made so: of all that give the same motion, those of least
+// In a passage through a singular position (a parallelogram that is flat) a row cannot be held for a step or two: it is left
+// out there, its residual stays of third order in h, and the next cycle removes it.
+// The multipliers of redundant rows are not unique; for the reports they are made so: of all that give the same motion, those of least
 // weighted norm, so that two hinges of a door share its weight.
 #pragma once
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "kardan/rigid/block_cholesky.hpp"
@@ -53,8 +57,11 @@ class ExactJoints {
   JointSeparation largest;          ///< of all cycles so far
 
  private:
-  [[noreturn]] void fail(const Model& model, const State& state, const JointSet& joints, std::size_t worst_joint,
-                         double worst, int iteration) const;
+  [[noreturn]] void fail(const Model& model, const State& state, const JointSet& joints) const;
+  /// Applies the forces of the cycle before as a first guess.
+  void guess(const JointSet& joints, BodySet& bodies, double kick);
+  /// Newton's iteration with the factored matrix; false where it does not converge.
+  bool close(const State& state, JointSet& joints, BodySet& bodies, double h, int iteration_limit);
   /// Residuals at the trial poses into correction_; returns the largest relative to the mechanism's size, and its joint.
   std::pair<double, std::size_t> residuals(const JointSet& joints, const BodySet& bodies, double h);
   void factor(const JointSet& joints, const BodySet& bodies);
@@ -63,7 +70,11 @@ class ExactJoints {
 
   BlockCholesky matrix_;
   std::vector<double> correction_, impulse_;
-  double worst_inactive_ = 0;       ///< largest relative residual of a row left out
+  std::vector<std::uint8_t> skipped_;  ///< by row: left out of this cycle only
+  bool passing_singularity_ = false;
+  double worst_ = 0;                ///< largest relative residual of the rows that are held
+  std::size_t worst_joint_ = 0;
+  double worst_inactive_ = 0;       ///< of those left out
 };
 
 }  // namespace kardan

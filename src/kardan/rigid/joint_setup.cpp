@@ -68,8 +68,8 @@ BodyIndex side_body(const Model& model, const State& state, const Joint& joint, 
   return found;
 }
 
-/// Sizes of the mechanisms: the diagonal of the box around the joints and centres of each set of connected bodies.
-void set_lengths(const State& state, JointSet& set) {
+/// Sizes of the mechanisms: the diagonal of the box around the joints' nodes and the centres of each set of connected bodies.
+void set_lengths(const Model& model, const State& state, JointSet& set) {
   std::vector<int> root(state.bodies.info.size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int i) {
@@ -91,12 +91,21 @@ void set_lengths(const State& state, JointSet& set) {
       include(r, m.center);
       include(r, m.center + to_matrix(m.orientation) * arm);
     }
+    const Joint& deck = model.joints[j.model_joint];
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (deck.points && (i == 0 || norm((*deck.points)[i]) > 0)) include(r, (*deck.points)[i]);
+      if (!deck.points && deck.nodes[i] != none) include(r, model.nodes.x[deck.nodes[i]]);
+    }
   }
+  double largest = 0;
   for (JointRuntime& j : set.joints) {
     const int r = find(j.a);
     j.length = norm(high[r] - low[r]);
-    if (!(j.length > 0)) j.length = 1.0;
+    largest = std::max(largest, j.length);
   }
+  // A mechanism in one point (everything at the joint) has no size of its own.
+  for (JointRuntime& j : set.joints)
+    if (!(j.length > 1e-9 * largest)) j.length = largest > 0 ? largest : 1.0;
 }
 
 }  // namespace
@@ -124,7 +133,7 @@ void setup_joints(const Model& model, const State& state, JointSet& set, Diagnos
     }
     append_joint(joint, static_cast<Index>(j), a, b, points, state, set, diagnostics);
   }
-  set_lengths(state, set);
+  set_lengths(model, state, set);
 }
 
 void find_redundant_joints(const Model& model, const State& state, JointSet& set, const BodySet& bodies, ExactJoints& exact,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace kardan {
 
@@ -31,7 +32,21 @@ std::array<double, 3> bend_and_twist(const Mat3& r) {
   return {alpha, gamma, 2.0 * std::atan2(twist.z, twist.w)};
 }
 
-double wrapped(double angle) { return std::remainder(angle, 2.0 * 3.14159265358979323846); }
+/// The rotation vector of `q` next to `previous`: the same rotation, whole turns added.
+Vec3 rotation_vector_next_to(const Quat& q, const Vec3& previous) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  const Vec3 v = to_rotation_vector(q);
+  const double angle = norm(v);
+  if (angle < 1e-8) {
+    // Whole turns about the axis of the angles before.
+    const double before = norm(previous);
+    return before > 1.0 ? v + previous * (std::round(before / turn) * turn / before) : v;
+  }
+  const Vec3 axis = v / angle;
+  return axis * (angle + turn * std::round((dot(previous, axis) - angle) / turn));
+}
+
+double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
 }  // namespace
 
@@ -89,7 +104,8 @@ JointStiffnesses::Kinematics JointStiffnesses::kinematics(const Model& model, co
   switch (deck.kind) {
     case JointStiffnessKind::generalized: {
       const bool total = model.control.rigid.jntf != 0;
-      const Vec3 turn = total ? to_rotation_vector(relative) : to_rotation_vector(relative * conjugate(m.relative));
+      const Vec3 turn = total ? rotation_vector_next_to(relative, {m.coordinate[0], m.coordinate[1], m.coordinate[2]})
+                              : to_rotation_vector(relative * conjugate(m.relative));
       for (std::size_t i = 0; i < 3; ++i) {
         k.coordinate[i] = total ? turn[i] : m.coordinate[i] + turn[i];
         k.direction[i] = axes_a.column(i);
@@ -142,17 +158,37 @@ JointStiffnesses::Kinematics JointStiffnesses::kinematics(const Model& model, co
   return k;
 }
 
-double JointStiffnesses::friction(const Model& model, const JointStiffness::Coordinate& c, double q, double dq, double rate,
-                                  double normal_force, double automatic_stiffness, double before) const {
-  double limit = c.friction_curve != none ? std::abs(model.curves[c.friction_curve].value(q)) : std::abs(c.friction);
-  double stiffness = c.elastic;
-  if (c.static_coefficient > 0 || c.dynamic_coefficient > 0) {
-    const double mu = c.dynamic_coefficient + (c.static_coefficient - c.dynamic_coefficient) * std::exp(-c.decay * std::abs(rate));
-    limit += mu * normal_force;
-    if (stiffness == 0) stiffness = automatic_stiffness;
+double JointStiffnesses::friction(const Model& model, const JointStiffness::Coordinate& c, const Sliding& now,
+                                  double before) const {
+  double limit = c.friction_curve != none ? std::abs(model.curves[c.friction_curve].value(now.coordinate)) : std::abs(c.friction);
+  const bool by_joint_force = c.static_coefficient > 0 || c.dynamic_coefficient > 0;
+  if (by_joint_force)
+    limit += now.normal_force * (c.dynamic_coefficient +
+                                 (c.static_coefficient - c.dynamic_coefficient) * std::exp(-c.decay * std::abs(now.rate)));
+  if (limit == 0) return 0;
+  if (c.elastic > 0) {
+    // A joint that moves already at t = 0 starts with its spring drawn.
+    if (now.first) before = c.elastic * now.rate * now.dt;
+    return std::clamp(before + c.elastic * now.increment, -limit, limit);
   }
-  if (stiffness == 0 || limit == 0) return 0;
-  return std::clamp(before + stiffness * dq, -limit, limit);
+  // Without a spring stiffness: the force that would bring the sliding to rest in this kick, no more than the limit.
+  return by_joint_force ? std::clamp(now.stopping_force, -limit, limit) : 0.0;
+}
+
+double JointStiffnesses::stopping_force(const State& state, const BodySet& bodies, const Element& e, const Kinematics& k,
+                                        std::size_t i) const {
+  // m_eff (v + kick (f_B / m_B - f_A / m_A) . e) / kick, the joint's own forces being square to the way.
+  const Vec3& along = k.direction[i];
+  const double inverse_a = dot(along, bodies.linear_response(e.a, along)), inverse_b = dot(along, bodies.linear_response(e.b, along));
+  if (!(inverse_a + inverse_b > 0)) return 0.0;
+  const double kick = state.clock.kick();
+  const double driven = k.rate[i] + kick * dot(along, bodies.linear_response(e.b, state.bodies.force[e.b]) -
+                                                          bodies.linear_response(e.a, state.bodies.force[e.a]));
+  return driven / ((inverse_a + inverse_b) * kick);
+}
+
+bool JointStiffnesses::asks_for_joint_forces() const {
+  return std::any_of(elements_.begin(), elements_.end(), [](const Element& e) { return e.joint >= 0; });
 }
 
 void JointStiffnesses::apply(const Model& model, State& state, const BodySet& bodies, const JointSet& joints,
@@ -163,13 +199,9 @@ void JointStiffnesses::apply(const Model& model, State& state, const BodySet& bo
     const JointStiffness& deck = model.joint_stiffnesses[e.model_index];
     const Kinematics k = kinematics(model, state, bodies, e, m);
     JointStiffnessReport& report = state.joint_stiffnesses[e.model_index];
-    double normal_force = 0, automatic_stiffness = 0;
-    if (e.joint >= 0 && state.clock.cycle > 0) {
-      normal_force = norm(joints.resultant(bodies, static_cast<std::size_t>(e.joint),
-                                           joint_force.data() + joints.offset[e.joint]).first);
-      const double reduced = 1.0 / (bodies.inverse_mass(e.a) + bodies.inverse_mass(e.b));
-      automatic_stiffness = 0.1 * deck.rps * reduced / (state.clock.dt * state.clock.dt);
-    }
+    const double normal_force =
+        e.joint < 0 ? 0.0
+                    : norm(joints.resultant(bodies, static_cast<std::size_t>(e.joint), joint_force.data() + joints.offset[e.joint]).first);
     Vec3 total;
     for (std::size_t i = 0; i < 3; ++i) {
       const JointStiffness::Coordinate& c = deck.coordinate[i];
@@ -182,7 +214,9 @@ void JointStiffnesses::apply(const Model& model, State& state, const BodySet& bo
       if (!only_scales) {
         if (c.moment != none) elastic += bend * model.curves[c.moment].value(q);
         if (c.damping != none) damping += bend_rate * model.curves[c.damping].value(rate);
-        m.friction[i] = friction(model, c, q, dq, rate, normal_force, automatic_stiffness, m.friction[i]);
+        const double stopping = rotational(deck.kind) || normal_force == 0 ? 0.0 : stopping_force(state, bodies, e, k, i);
+        const Sliding now{q, dq, rate, normal_force, stopping, state.clock.dt, state.clock.cycle == 0};
+        m.friction[i] = friction(model, c, now, m.friction[i]);
         elastic += stop_moment(c, q) + m.friction[i];
       }
       const double moment = elastic + damping;

@@ -4,11 +4,12 @@
 //
 // Frames A and B (CIDA, CIDB) turn with their bodies. Each of up to three relative coordinates q with direction e gets
 //   m = curve(q) + damping_curve(q') + friction + stop,           moment (force) -m e on B and +m e on A,
-//   friction: an elastic-perfectly plastic spring, f += ES dq, |f| <= FM (or FM(q); or mu |N| with the joint's force N),
+//   friction: an elastic-perfectly plastic spring, f += ES dq, |f| <= FM (or FM(q); or mu |N| with the joint's force N);
+//             mu |N| without ES: Coulomb's law without a spring, the force that stops the sliding but no more than mu |N|,
 //   stop:     ES (q - q_stop) beyond the stop.
 // Coordinates:
 //   generalized      rotations of B against A about the axes of A. JNTF = 0 (default): sum of the relative rotation's
-//                    increments, exact for any angle about one axis; JNTF = 1, 2: rotation vector of B in A.
+//                    increments, exact for any angle about one axis; JNTF = 1, 2: rotation vector of B in A, whole turns counted.
 //   flexion-torsion  alpha angle between the z axes, about their common normal; beta twist about z_B that remains after
 //                    the bend; gamma direction of the bend in A's x-y plane, scales the alpha moment.
 //   translational    displacement of B's origin from A's along the axes of B.
@@ -34,6 +35,8 @@ class JointStiffnesses {
   /// forces of the cycle before (friction by the joint's force).
   void apply(const Model& model, State& state, const BodySet& bodies, const JointSet& joints,
              const std::vector<double>& joint_force);
+  /// Some friction depends on the force of a joint.
+  bool asks_for_joint_forces() const;
   /// Stored and dissipated energy so far.
   double energy(const State& state) const;
   void register_state(State& state);
@@ -57,8 +60,15 @@ class JointStiffnesses {
     double bend = 1, bend_rate = 1;  ///< gamma factors
   };
   Kinematics kinematics(const Model& model, const State& state, const BodySet& bodies, const Element& e, Memory& m) const;
-  double friction(const Model& model, const JointStiffness::Coordinate& c, double q, double dq, double rate,
-                  double normal_force, double automatic_stiffness, double before) const;
+  struct Sliding {             ///< what friction depends on, at t_n
+    double coordinate, increment, rate;
+    double normal_force;             ///< resultant of the joint named by JID
+    double stopping_force;           ///< would bring the sliding to rest in this kick
+    double dt;
+    bool first;                      ///< t = 0
+  };
+  double friction(const Model& model, const JointStiffness::Coordinate& c, const Sliding& now, double before) const;
+  double stopping_force(const State& state, const BodySet& bodies, const Element& e, const Kinematics& k, std::size_t i) const;
 
   std::vector<Element> elements_;
   std::vector<Memory> memory_;

@@ -42,6 +42,7 @@ struct RigidSystem::Impl {
   void gather_forces(State& state) const;
   void set_trial(const State& state);
   void solve_joints(const Model& model, State& state);
+  void find_first_joint_forces(const Model& model, const State& state);
   void check_rotation(const State& state) const;
   void take_velocities(State& state);  ///< of bodies and needed nodes, at t_{n+1/2}
   void fill_body_reports(State& state) const;
@@ -173,6 +174,16 @@ void RigidSystem::Impl::set_trial(const State& state) {
   }
 }
 
+void RigidSystem::Impl::find_first_joint_forces(const Model& model, const State& state) {
+  // Friction at t = 0 needs the joints' forces before there are any: those of a kick without it.
+  if (holding != JointHolding::exact) return;
+  set_trial(state);
+  motions.prescribe(model, state, bodies, false);
+  for (std::size_t b = 0; b < bodies.size(); ++b) bodies.update_mobility(b);
+  joints.linearise(state, bodies);
+  exact.solve(model, state, joints, bodies, state.clock.kick(), state.clock.dt);
+}
+
 void RigidSystem::Impl::check_rotation(const State& state) const {
   const double limit = 1.0 / (state.clock.dt * state.clock.dt);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -254,6 +265,7 @@ void RigidSystem::kick(const Model& model, State& state) {
   Impl& s = *impl_;
   KARDAN_ASSERT(s.needed_listed);
   s.gather_forces(state);
+  if (state.clock.cycle == 0 && s.stiffness.asks_for_joint_forces()) s.find_first_joint_forces(model, state);
   s.stiffness.apply(model, state, s.bodies, s.joints, s.row_forces());
   s.set_trial(state);
   s.motions.prescribe(model, state, s.bodies, false);
