@@ -213,17 +213,16 @@ is given in the axes of the plane (down, across, normal).""", 1, 1e-5, 1e-3)
     for name, mu in (("frictionless.k", 0), ("friction.k", 0.2)):
         k = Deck(f"Translational joint on an incline, mu = {mu}", f"""A body on a slide (translational joint) inclined by 30 degrees, from rest, mu = {mu}."""
                  + ("""
-Friction: *CONSTRAINED_JOINT_STIFFNESS_TRANSLATIONAL along the slide's axis (x of the frames); the normal force is
-constant, so the limit FFX is mu m g cos 30. The friction spring is as stiff as the step of 1e-6 s allows (4e12 N/m),
-so that it slips from the first step on.""" if mu else ""), 1, 1e-6 if mu else 1e-5, 1e-3)
+Friction: *CONSTRAINED_JOINT_STIFFNESS_TRANSLATIONAL along the slide's axis (x of the frames), FS = FD = mu on the
+force of joint 1 (JID). ESX = 0: Coulomb's law without a spring that would have to be drawn first.""" if mu else ""), 1, 1e-5, 1e-3)
         k.ground(1)
         k.body(2, "slider", 2.0, [0, 0, 0], diag(0.02, 0.02, 0.02), (0.05, 0.03, 0.03), [down, Y, normal])
         k.joint("translational", 1, "slide", 1, 2, [[0, 0, 0], scale(0.1, down), [0, 0.1, 0]])
         k.gravity("Z", 9.81)
         if mu:
             frames(k, [(31, 1, [0, 0, 0], down), (32, 2, [0, 0, 0], down)])
-            k.text("*CONSTRAINED_JOINT_STIFFNESS_TRANSLATIONAL", "1,1,2,31,32", "0,0,0,0,0,0",
-                   card(4e12, mu * 2 * 9.81 * math.cos(t), 0, 0, 0, 0), "0,0,0,0,0,0")
+            k.text("*CONSTRAINED_JOINT_STIFFNESS_TRANSLATIONAL", "1,1,2,31,32,1", "0,0,0,0,0,0", "0,0,0,0,0,0",
+                   card(0, 0, 0, 0, 0, 0, mu, mu))
         k.write(path("translational_incline", name))
 
 

@@ -32,6 +32,18 @@ std::array<double, 3> bend_and_twist(const Mat3& r) {
   return {alpha, gamma, 2.0 * std::atan2(twist.z, twist.w)};
 }
 
+/// Direction from point 1 to point 3: the axis a translational or cylindrical joint slides along. Zero if it has none.
+Vec3 joint_axis(const Model& model, const Joint& joint) {
+  Vec3 d;
+  if (joint.points) {
+    d = (*joint.points)[2] - (*joint.points)[0];
+  } else if (joint.nodes[2] != none) {
+    d = model.nodes.x[joint.nodes[2]] - model.nodes.x[joint.nodes[0]];
+  }
+  const double length = norm(d);
+  return length > 0 ? d / length : d;
+}
+
 /// The rotation vector of `q` next to `previous`: the same rotation, whole turns added.
 Vec3 rotation_vector_next_to(const Quat& q, const Vec3& previous) {
   constexpr double turn = 2.0 * std::numbers::pi;
@@ -76,6 +88,12 @@ void JointStiffnesses::initialise(const Model& model, State& state, const JointS
     attach(e.b, frame_b, e.axes_b, e.origin_b);
     for (std::size_t j = 0; j < joints.joints.size(); ++j)
       if (deck.joint != 0 && model.joints[joints.joints[j].model_joint].id == deck.joint) e.joint = static_cast<int>(j);
+    if (e.joint >= 0) {
+      const Mat3 axes = frame_b == none ? Mat3::identity() : model.frames[frame_b].axes;
+      const Vec3 axis = joint_axis(model, model.joints[joints.joints[e.joint].model_joint]);
+      for (std::size_t i = 0; i < 3; ++i)
+        e.slides[i] = deck.kind == JointStiffnessKind::cylindrical ? i == 2 : std::abs(dot(axes.column(i), axis)) > 0.9;
+    }
     Memory m{};
     const Mat3 r = transpose(to_matrix(state.bodies.motion[e.a].orientation) * e.axes_a) *
                    (to_matrix(state.bodies.motion[e.b].orientation) * e.axes_b);
@@ -214,8 +232,9 @@ void JointStiffnesses::apply(const Model& model, State& state, const BodySet& bo
       if (!only_scales) {
         if (c.moment != none) elastic += bend * model.curves[c.moment].value(q);
         if (c.damping != none) damping += bend_rate * model.curves[c.damping].value(rate);
-        const double stopping = rotational(deck.kind) || normal_force == 0 ? 0.0 : stopping_force(state, bodies, e, k, i);
-        const Sliding now{q, dq, rate, normal_force, stopping, state.clock.dt, state.clock.cycle == 0};
+        const double rubbing = e.slides[i] ? normal_force : 0.0;
+        const double stopping = rubbing > 0 ? stopping_force(state, bodies, e, k, i) : 0.0;
+        const Sliding now{q, dq, rate, rubbing, stopping, state.clock.dt, state.clock.cycle == 0};
         m.friction[i] = friction(model, c, now, m.friction[i]);
         elastic += stop_moment(c, q) + m.friction[i];
       }

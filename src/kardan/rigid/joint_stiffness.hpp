@@ -47,6 +47,7 @@ class JointStiffnesses {
     Mat3 axes_a, axes_b;       ///< columns in the principal axes of the bodies
     Vec3 origin_a, origin_b;   ///< from the centres, principal axes
     int joint = -1;            ///< into JointSet::joints, for friction by the joint's force
+    std::array<bool, 3> slides{};  ///< coordinates along the axis that the joint leaves free: its force rubs there
     Index model_index;
   };
   struct Memory {              ///< carried from cycle to cycle

@@ -261,9 +261,9 @@ void build_joint_stiffness(Builder& b, Block& block) {
         c.static_coefficient = cards[2].real("fs");
         c.dynamic_coefficient = cards[2].real("fd");
       }
-      if (cards[2].real("fs") != 0 || cards[2].real("fd") != 0) {
-        b.unsupported(cards[2], "fs", "friction from the joint's force is not available",
-                      "give the limits FFX, FFY, FFZ");
+      if ((cards[2].real("fs") != 0 || cards[2].real("fd") != 0) && s.joint == 0) {
+        b.unsupported(cards[2], "fs", "friction from the joint's force needs the joint",
+                      "give its id as JID on the first card, or the limits FFX, FFY, FFZ");
       }
     }
     if (s.kind == JointStiffnessKind::cylindrical) {
