@@ -1,5 +1,5 @@
-// Reads a shell deck of 1.2 million nodes, made in a temporary folder, in fixed columns and in free format, and prints MB/s.
-// The goal (issue 1) is 150 MB/s on one core for reading and decoding every field.
+// Reads a shell deck of 1.2 million nodes, made in a temporary folder, in fixed columns and in free format, and prints
+// MB/s. The goal (issue 1) is 150 MB/s on one core for reading and decoding every field.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,15 +40,18 @@ void write_deck(const fs::path& path, int columns, int rows, bool free_format) {
   for (int j = 0; j + 1 < rows; ++j)
     for (int i = 0; i + 1 < columns; ++i) {
       const int id = j * (columns - 1) + i + 1, n = j * columns + i + 1;
-      text += free_format ? fmt::format("{},{},{},{},{},{}\n", id, 1, n, n + 1, n + columns + 1, n + columns)
-                          : fmt::format("{:8d}{:8d}{:8d}{:8d}{:8d}{:8d}\n", id, 1, n, n + 1, n + columns + 1, n + columns);
+      text += free_format
+                  ? fmt::format("{},{},{},{},{},{}\n", id, 1, n, n + 1, n + columns + 1, n + columns)
+                  : fmt::format("{:8d}{:8d}{:8d}{:8d}{:8d}{:8d}\n", id, 1, n, n + 1, n + columns + 1, n + columns);
     }
   text += "*END\n";
   std::ofstream(path, std::ios::binary) << text;
 }
 
 /// Seconds of this thread's core, so that what else the machine does is left out.
-double seconds_since(std::clock_t start) { return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; }
+double seconds_since(std::clock_t start) {
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
 
 bool measure(const fs::path& path, const char* label, std::size_t expected_nodes) {
   double best_split = 1e9, best_all = 1e9;
@@ -63,7 +66,9 @@ bool measure(const fs::path& path, const char* label, std::size_t expected_nodes
     for (Block& block : deck.blocks) {
       if (block.keyword == "NODE") {
         nodes.reserve(block.lines_left());
-        block.for_each("card0", [&](const Card& c) { nodes.push_back({c.integer(0), c.real(1), c.real(2), c.real(3)}); });
+        block.for_each("card0", [&](const Card& c) {
+          nodes.push_back({c.integer(0), c.real(1), c.real(2), c.real(3)});
+        });
       } else {
         shells.reserve(block.lines_left());
         block.for_each("card0", [&](const Card& c) {
@@ -78,8 +83,10 @@ bool measure(const fs::path& path, const char* label, std::size_t expected_nodes
     if (!diagnostics.ok()) return false;
   }
   const double megabytes = static_cast<double>(bytes) / 1e6;
-  fmt::print("{:14} {:8.1f} MB  {} nodes, {} shells  split {:6.0f} MB/s  split and decoded {:6.0f} MB/s  ({:.2f} s of one core)\n", label, megabytes,
-             nodes_read, shells_read, megabytes / best_split, megabytes / best_all, best_all);
+  fmt::print(
+      "{:14} {:8.1f} MB  {} nodes, {} shells  split {:6.0f} MB/s  split and decoded {:6.0f} MB/s  ({:.2f} s of one "
+      "core)\n",
+      label, megabytes, nodes_read, shells_read, megabytes / best_split, megabytes / best_all, best_all);
   return nodes_read == expected_nodes;
 }
 

@@ -48,7 +48,9 @@ TEST(Card, FreeFormat) {
 
 TEST(Card, WiderFormats) {
   const std::string i10 = "        12             1.5              -2           3.e-3         0         7\n";
-  const std::string wide = "                  12                 1.5                  -2               3.e-3                   0                   7\n";
+  const std::string wide =
+      "                  12                 1.5                  -2               3.e-3                   0            "
+      "       7\n";
   EXPECT_EQ(nodes("*NODE %\n" + i10), expected);
   EXPECT_EQ(nodes("*NODE%\n" + i10), expected);
   EXPECT_EQ(nodes("*KEYWORD I10=Y\n*NODE\n" + i10), expected);
@@ -66,14 +68,19 @@ TEST(Card, LineEndsCommentsTabsAndMarks) {
   EXPECT_EQ(nodes("\xEF\xBB\xBF*NODE\n12,1.5,-2,3e-3,,7"), expected);
   EXPECT_EQ(nodes("*NODE\n12\t1.5\t\t-2\t\t3e-3\t\t0\t7\n"), expected);
   EXPECT_EQ(nodes("*NODE  \n$ \xC3\xA4\xE9 \xFF\n12,1.5,-2,3e-3,,7\n\n\n"), expected);
-  const std::string beyond_80 = "      12             1.5              -2           3.e-3       0       7           and a remark behind column 80\n";
+  const std::string beyond_80 =
+      "      12             1.5              -2           3.e-3       0       7           and a remark behind column "
+      "80\n";
   EXPECT_EQ(nodes("*NODE\n" + beyond_80), expected);
 }
 
-TEST(Card, EndEndsTheFile) { EXPECT_EQ(nodes("*NODE\n12,1.5,-2,3e-3,,7\n*end\n*NODE\n13,0,0,0\n"), expected); }
+TEST(Card, EndEndsTheFile) {
+  EXPECT_EQ(nodes("*NODE\n12,1.5,-2,3e-3,,7\n*end\n*NODE\n13,0,0,0\n"), expected);
+}
 
 TEST(Card, BlankFieldsHaveTheTablesDefaults) {
-  Read read("*CONSTRAINED_JOINT_REVOLUTE\n         1         2         3         4\n*BOUNDARY_SPC_SET_BIRTH_DEATH\n1\n0.5\n");
+  Read read(
+      "*CONSTRAINED_JOINT_REVOLUTE\n         1         2         3         4\n*BOUNDARY_SPC_SET_BIRTH_DEATH\n1\n0.5\n");
   const Card joint = read.block(0).next("card0");
   EXPECT_EQ(joint.integer("n4"), 4);
   EXPECT_EQ(joint.real("rps"), 1.0);
@@ -85,8 +92,10 @@ TEST(Card, BlankFieldsHaveTheTablesDefaults) {
 }
 
 TEST(Card, TitlesAndHeadings) {
-  Read read("*PART\nA body, with a comma & more\n         7         1         1\n\n         8         1         1\n"
-            "*CONSTRAINED_JOINT_REVOLUTE_ID\n        11left hinge\n1,2,3,4\n*CONSTRAINED_JOINT_REVOLUTE_ID\n12, left, right\n1,2,3,4\n");
+  Read read(
+      "*PART\nA body, with a comma & more\n         7         1         1\n\n         8         1         1\n"
+      "*CONSTRAINED_JOINT_REVOLUTE_ID\n        11left hinge\n1,2,3,4\n*CONSTRAINED_JOINT_REVOLUTE_ID\n12, left, "
+      "right\n1,2,3,4\n");
   Block& part = read.block(0);
   EXPECT_EQ(part.next_title(), "A body, with a comma & more");
   EXPECT_EQ(part.next("card0").integer("pid"), 7);
@@ -133,7 +142,8 @@ TEST(Card, MissingCardIsAnErrorUnlessOptional) {
 }
 
 TEST(Card, MalformedFieldsNameEverything) {
-  Read read("*KEYWORD\n*CONSTRAINED_JOINT_REVOLUTE_ID\n         1\n$ comment\n         1        2x       3.5         4\n");
+  Read read(
+      "*KEYWORD\n*CONSTRAINED_JOINT_REVOLUTE_ID\n         1\n$ comment\n         1        2x       3.5         4\n");
   Block& block = read.block(0);
   block.next("id");
   const Card card = block.next("card0");

@@ -15,7 +15,8 @@ std::vector<fs::path> decks_below(const fs::path& folder) {
   std::vector<fs::path> decks;
   if (fs::is_directory(folder))
     for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (entry.is_regular_file() && (entry.path().extension() == ".k" || entry.path().extension() == ".key")) decks.push_back(entry.path());
+      if (entry.is_regular_file() && (entry.path().extension() == ".k" || entry.path().extension() == ".key"))
+        decks.push_back(entry.path());
   std::sort(decks.begin(), decks.end());
   return decks;
 }
@@ -46,10 +47,13 @@ TEST(Corpus, KeywordsOfTheBeltedDummyAreUnderstood) {
   Read read(path, options);
   EXPECT_TRUE(read.diagnostics.ok()) << read.messages();
   const auto count = [&](std::string_view keyword) {
-    return std::count_if(read.deck.blocks.begin(), read.deck.blocks.end(), [&](const Block& b) { return b.keyword == keyword; });
+    return std::count_if(read.deck.blocks.begin(), read.deck.blocks.end(),
+                         [&](const Block& b) { return b.keyword == keyword; });
   };
   EXPECT_EQ(count("CONSTRAINED_JOINT_SPHERICAL"), 14);
-  EXPECT_EQ(std::count_if(read.deck.blocks.begin(), read.deck.blocks.end(), [](const Block& b) { return b.has("INERTIA"); }), 15);
+  EXPECT_EQ(
+      std::count_if(read.deck.blocks.begin(), read.deck.blocks.end(), [](const Block& b) { return b.has("INERTIA"); }),
+      15);
   std::size_t springs = 0;
   for (Block& block : read.deck.blocks)
     if (block.keyword == "ELEMENT_DISCRETE") block.for_each("card0", [&](const Card&) { ++springs; });
@@ -77,7 +81,8 @@ TEST(Corpus, ParametersAcrossIncludes) {
   EXPECT_EQ(section_values("local/sibling_test_top.k", 1), (Values{111, 100, 1, 100}));
   EXPECT_EQ(section_values("sibling/main.k", 0), (Values{5678}));
   EXPECT_EQ(section_values("collision_local/main.k", 0), (Values{1, 2}));
-  // Two files define the same global parameter: as *PARAMETER_DUPLICATION says, the first stays and a warning names both.
+  // Two files define the same global parameter: as *PARAMETER_DUPLICATION says, the first stays and a warning names
+  // both.
   EXPECT_EQ(section_values("collision/main_with_consumer.k", 0), (Values{1, 1, 1}));
 }
 

@@ -16,9 +16,13 @@ namespace kardan::deck::test {
 struct Read {
   Diagnostics diagnostics;
   Deck deck;
-  explicit Read(const std::string& text, const ReadOptions& options = {}) { deck = read_deck_text(text, "deck.k", {}, options, diagnostics); }
+  explicit Read(const std::string& text, const ReadOptions& options = {}) {
+    deck = read_deck_text(text, "deck.k", {}, options, diagnostics);
+  }
   explicit Read(const char* text, const ReadOptions& options = {}) : Read(std::string(text), options) {}
-  explicit Read(const std::filesystem::path& path, const ReadOptions& options = {}) { deck = read_deck(path, options, diagnostics); }
+  explicit Read(const std::filesystem::path& path, const ReadOptions& options = {}) {
+    deck = read_deck(path, options, diagnostics);
+  }
   Read(const Read&) = delete;
   Read& operator=(const Read&) = delete;
 
@@ -33,7 +37,8 @@ struct Read {
 /// The first message of a severity that contains `part`; nullptr if there is none.
 inline const Diagnostic* find_message(const Diagnostics& diagnostics, Severity severity, std::string_view part) {
   for (const Diagnostic& d : diagnostics.all())
-    if (d.severity == severity && (d.message.find(part) != std::string::npos || d.cure.find(part) != std::string::npos)) return &d;
+    if (d.severity == severity && (d.message.find(part) != std::string::npos || d.cure.find(part) != std::string::npos))
+      return &d;
   return nullptr;
 }
 

@@ -14,18 +14,22 @@ using test::TemporaryFolder;
 
 std::vector<std::int64_t> node_ids(Read& read) {
   std::vector<std::int64_t> ids;
-  for (Block& block : read.deck.blocks) block.for_each("card0", [&](const Card& c) { ids.push_back(c.id("nid", IdKind::node)); });
+  for (Block& block : read.deck.blocks)
+    block.for_each("card0", [&](const Card& c) { ids.push_back(c.id("nid", IdKind::node)); });
   return ids;
 }
 
-std::string node(int id) { return "*NODE\n" + std::to_string(id) + ",0,0,0\n"; }
+std::string node(int id) {
+  return "*NODE\n" + std::to_string(id) + ",0,0,0\n";
+}
 
 TEST(Include, TakesTheFilesPlace) {
   TemporaryFolder folder;
   folder.write("sub/a.k", "*KEYWORD\n" + node(2) + "*INCLUDE\nb.k\n*END\nrest\n");
   folder.write("sub/b.k", node(3));
   folder.write("c.k", node(5));
-  Read read(folder.write("main.k", "*KEYWORD\n" + node(1) + "*INCLUDE\n$ comment\nsub/a.k\nc.k\n" + node(6) + "*END\n"));
+  Read read(
+      folder.write("main.k", "*KEYWORD\n" + node(1) + "*INCLUDE\n$ comment\nsub/a.k\nc.k\n" + node(6) + "*END\n"));
   EXPECT_TRUE(read.diagnostics.ok()) << read.messages();
   EXPECT_EQ(node_ids(read), (std::vector<std::int64_t>{1, 2, 3, 5, 6}));
   EXPECT_EQ(read.deck.files.size(), 4u);
@@ -40,10 +44,14 @@ TEST(Include, FindsFilesInManyWays) {
   folder.write("a very long name.k", node(5));
   folder.write("p7.k", node(7));
   const std::string absolute = folder.write("elsewhere.k", node(6)).string();
-  Read read(folder.write("main.k", "*INCLUDE\nparts\\deep\\a.k\n*INCLUDE_PATH\nparts\n*INCLUDE\n'b.k'\n*INCLUDE\nx/y/c.k\n*INCLUDE\na very long +\nname.k\n" +
-                                       std::string("*INCLUDE\n") + absolute + "\n*PARAMETER\ni n,7\n*INCLUDE\np&n.k\n"));
-  EXPECT_EQ(read.diagnostics.error_count(), 1u) << read.messages();  // "a very long" + "name.k" without the blank is another file
-  EXPECT_NE(find_message(read.diagnostics, Severity::error, "'a very longname.k' is not found"), nullptr) << read.messages();
+  Read read(folder.write("main.k",
+                         "*INCLUDE\nparts\\deep\\a.k\n*INCLUDE_PATH\nparts\n*INCLUDE\n'b.k'\n*INCLUDE\nx/y/"
+                         "c.k\n*INCLUDE\na very long +\nname.k\n" +
+                             std::string("*INCLUDE\n") + absolute + "\n*PARAMETER\ni n,7\n*INCLUDE\np&n.k\n"));
+  EXPECT_EQ(read.diagnostics.error_count(), 1u)
+      << read.messages();  // "a very long" + "name.k" without the blank is another file
+  EXPECT_NE(find_message(read.diagnostics, Severity::error, "'a very longname.k' is not found"), nullptr)
+      << read.messages();
   EXPECT_EQ(node_ids(read), (std::vector<std::int64_t>{1, 2, 4, 6, 7}));
 }
 
@@ -78,7 +86,9 @@ TEST(Include, MissingDeckUtf16AndTextBeforeTheFirstKeyword) {
 
 TEST(Include, DepthNumberAndConfinementAreBounded) {
   TemporaryFolder folder;
-  for (int i = 0; i < 12; ++i) folder.write("f" + std::to_string(i) + ".k", "*INCLUDE\nf" + std::to_string(i + 1) + ".k\nf" + std::to_string(i + 1) + ".k\n");
+  for (int i = 0; i < 12; ++i)
+    folder.write("f" + std::to_string(i) + ".k",
+                 "*INCLUDE\nf" + std::to_string(i + 1) + ".k\nf" + std::to_string(i + 1) + ".k\n");
   folder.write("f12.k", node(1));
   ReadOptions options;
   options.max_include_depth = 5;
@@ -90,7 +100,8 @@ TEST(Include, DepthNumberAndConfinementAreBounded) {
   EXPECT_EQ(many.deck.files.size(), 100u);
   options = {};
   options.max_bytes = 200;
-  EXPECT_NE(find_message(Read(folder.path() / "f0.k", options).diagnostics, Severity::error, "more than 200 bytes"), nullptr);
+  EXPECT_NE(find_message(Read(folder.path() / "f0.k", options).diagnostics, Severity::error, "more than 200 bytes"),
+            nullptr);
   options = {};
   options.confine_to = folder.path() / "inside";
   const auto inside = folder.write("inside/main.k", "*INCLUDE\n../f12.k\n*INCLUDE\nok.k\n");
@@ -102,13 +113,17 @@ TEST(Include, DepthNumberAndConfinementAreBounded) {
 
 TEST(Include, FormatOfAFileEndsWithIt) {
   TemporaryFolder folder;
-  folder.write("long.k", "*KEYWORD LONG=Y\n*NODE\n                   2                 0.5                 0.0                 0.0\n");
-  Read read(folder.write("main.k", "*KEYWORD\n*INCLUDE\nlong.k\n*NODE\n       3             0.5             0.0             0.0\n"));
+  folder.write(
+      "long.k",
+      "*KEYWORD LONG=Y\n*NODE\n                   2                 0.5                 0.0                 0.0\n");
+  Read read(folder.write(
+      "main.k", "*KEYWORD\n*INCLUDE\nlong.k\n*NODE\n       3             0.5             0.0             0.0\n"));
   for (Block& block : read.deck.blocks) EXPECT_EQ(block.next("card0").real("x"), 0.5);
 }
 
 const char* const shifted =
-    "*NODE\n1,1.0,2.0,3.0\n*MAT_ELASTIC\n5,7.8,210.,0.3\n*DEFINE_CURVE\n9\n*SECTION_SOLID\n3\n*SET_NODE_LIST\n4\n*PART\n\n6,3,5\n*ELEMENT_MASS\n8,1,2.0\n"
+    "*NODE\n1,1.0,2.0,3.0\n*MAT_ELASTIC\n5,7.8,210.,0.3\n*DEFINE_CURVE\n9\n*SECTION_SOLID\n3\n*SET_NODE_LIST\n4\n*"
+    "PART\n\n6,3,5\n*ELEMENT_MASS\n8,1,2.0\n"
     "*DEFINE_VECTOR\n7,0,0,0,1,0,0\n";
 
 TEST(Transform, ShiftsIdsByTheirKind) {
@@ -157,12 +172,15 @@ TEST(Transform, ConvertsUnits) {
 Vec3 moved(const std::string& steps, const std::string& units = "") {
   TemporaryFolder folder;
   folder.write("a.k", "*NODE\n1,1.0,2.0,3.0\n");
-  Read read(folder.write("main.k", "*DEFINE_TRANSFORMATION\n7\n" + steps + "*INCLUDE_TRANSFORM\na.k\n\n\n" + units + "\n7\n"));
+  Read read(folder.write("main.k",
+                         "*DEFINE_TRANSFORMATION\n7\n" + steps + "*INCLUDE_TRANSFORM\na.k\n\n\n" + units + "\n7\n"));
   EXPECT_TRUE(read.diagnostics.ok()) << read.messages();
   return read.block(0).next("card0").point("x");
 }
 
-void expect_near(const Vec3& a, const Vec3& b) { EXPECT_LT(norm(a - b), 1e-12) << a.x << " " << a.y << " " << a.z; }
+void expect_near(const Vec3& a, const Vec3& b) {
+  EXPECT_LT(norm(a - b), 1e-12) << a.x << " " << a.y << " " << a.z;
+}
 
 TEST(Transform, StepsInTheirOrder) {
   expect_near(moved("TRANSL,10,20,30\n"), {11, 22, 33});
@@ -178,7 +196,8 @@ TEST(Transform, StepsInTheirOrder) {
 }
 
 TEST(Transform, ThreePointsToThreePoints) {
-  const std::string points = "POINT,1,0,0,0\nPOINT,2,1,0,0\nPOINT,3,0,1,0\nPOINT,4,5,5,5\nPOINT,5,5,7,5\nPOINT,6,5,5,9\n";
+  const std::string points =
+      "POINT,1,0,0,0\nPOINT,2,1,0,0\nPOINT,3,0,1,0\nPOINT,4,5,5,5\nPOINT,5,5,7,5\nPOINT,6,5,5,9\n";
   expect_near(moved(points + "POS6P,1,2,3,4,5,6\n"), {5 + 3, 5 + 1, 5 + 2});
 }
 
@@ -186,7 +205,9 @@ TEST(Transform, NestedOnesApplyFromTheInsideOut) {
   TemporaryFolder folder;
   folder.write("a.k", "*NODE\n1,1.0,2.0,3.0\n");
   folder.write("inner.k", "*DEFINE_TRANSFORMATION\n1\nTRANSL,1,0,0\n*INCLUDE_TRANSFORM\na.k\n\n\n1,1,10\n1\n");
-  Read read(folder.write("main.k", "*DEFINE_TRANSFORMATION\n2\nROTATE,0,0,1,0,0,0,90\nTRANSL,0,0,7\n*INCLUDE_TRANSFORM\ninner.k\n\n\n1,1,2\n2\n"));
+  Read read(folder.write(
+      "main.k",
+      "*DEFINE_TRANSFORMATION\n2\nROTATE,0,0,1,0,0,0,90\nTRANSL,0,0,7\n*INCLUDE_TRANSFORM\ninner.k\n\n\n1,1,2\n2\n"));
   EXPECT_TRUE(read.diagnostics.ok()) << read.messages();
   // (1,2,3) -> x10, +1 -> (11,20,30) -> x2, turned, +7 -> (-40,22,67)
   expect_near(read.block(0).next("card0").point("x"), {-40, 22, 67});
@@ -209,7 +230,8 @@ TEST(Transform, Faults) {
   EXPECT_NE(error("*DEFINE_TRANSFORMATION\n1\nROTATE,0,0,0,1,0,0,90\n").find("no direction"), std::string::npos);
   EXPECT_NE(error("*DEFINE_TRANSFORMATION\n1\nMIRROR,1,1,1,1,1,1\n").find("no normal"), std::string::npos);
   EXPECT_NE(error("*DEFINE_TRANSFORMATION\n1\nSCALE,0,1,1\n").find("scale factor is zero"), std::string::npos);
-  EXPECT_NE(error("*DEFINE_TRANSFORMATION\n1\nTRANSL,1\n*DEFINE_TRANSFORMATION\n1\nTRANSL,1\n").find("a second time"), std::string::npos);
+  EXPECT_NE(error("*DEFINE_TRANSFORMATION\n1\nTRANSL,1\n*DEFINE_TRANSFORMATION\n1\nTRANSL,1\n").find("a second time"),
+            std::string::npos);
 }
 
 }  // namespace

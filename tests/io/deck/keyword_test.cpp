@@ -41,7 +41,8 @@ TEST(Keyword, ThousandsOfUnknownKeywordsTakeNoTime) {
 
 TEST(Keyword, UnknownOptionIsAnError) {
   Read read("*CONSTRAINED_JOINT_REVOLUTE_LOKAL\n1,2,3,4\n");
-  EXPECT_NE(find_message(read.diagnostics, Severity::error, "*CONSTRAINED_JOINT_REVOLUTE has no option LOKAL"), nullptr) << read.messages();
+  EXPECT_NE(find_message(read.diagnostics, Severity::error, "*CONSTRAINED_JOINT_REVOLUTE has no option LOKAL"), nullptr)
+      << read.messages();
   EXPECT_TRUE(read.deck.blocks.empty());
 }
 
@@ -54,7 +55,9 @@ TEST(Keyword, NotNeededIsNamedOnce) {
 }
 
 TEST(Keyword, ContactStopsUnlessLeftOut) {
-  const std::string text = "*CONTACT_AUTOMATIC_SINGLE_SURFACE_ID\n1\n*RIGIDWALL_PLANAR\n1\n*AIRBAG_SIMPLE_PRESSURE_VOLUME\n1\n*CONTACT_FORCE_TRANSDUCER_PENALTY\n1\n*END";
+  const std::string text =
+      "*CONTACT_AUTOMATIC_SINGLE_SURFACE_ID\n1\n*RIGIDWALL_PLANAR\n1\n*AIRBAG_SIMPLE_PRESSURE_VOLUME\n1\n*CONTACT_"
+      "FORCE_TRANSDUCER_PENALTY\n1\n*END";
   Read refused(text);
   EXPECT_EQ(refused.diagnostics.error_count(), 3u) << refused.messages();
   EXPECT_NE(find_message(refused.diagnostics, Severity::error, "--without contact"), nullptr);

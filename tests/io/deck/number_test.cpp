@@ -17,9 +17,24 @@ TEST(Number, ReadsRealsAsFortranWritesThem) {
     const char* text;
     double value;
   };
-  for (const Case& c : {Case{"1", 1}, {"1.", 1}, {".5", 0.5}, {"-.5", -0.5}, {"+2.5", 2.5}, {"1.5e3", 1500}, {"1.5E+3", 1500},
-                        {"1.5-3", 1.5e-3}, {"1.-3", 1e-3}, {"2+10", 2e10}, {"1.d5", 1e5}, {"1.D-5", 1e-5}, {"00012.50", 12.5},
-                        {"0.000000E+00", 0}, {"7.85E-09", 7.85e-9}, {"1e-400", 0}, {"0e999999999", 0}, {"-0.", 0},
+  for (const Case& c : {Case{"1", 1},
+                        {"1.", 1},
+                        {".5", 0.5},
+                        {"-.5", -0.5},
+                        {"+2.5", 2.5},
+                        {"1.5e3", 1500},
+                        {"1.5E+3", 1500},
+                        {"1.5-3", 1.5e-3},
+                        {"1.-3", 1e-3},
+                        {"2+10", 2e10},
+                        {"1.d5", 1e5},
+                        {"1.D-5", 1e-5},
+                        {"00012.50", 12.5},
+                        {"0.000000E+00", 0},
+                        {"7.85E-09", 7.85e-9},
+                        {"1e-400", 0},
+                        {"0e999999999", 0},
+                        {"-0.", 0},
                         {"123456789012345678901234567890", 123456789012345678901234567890.0},
                         {"0.1234567890123456789", 0.1234567890123456789}}) {
     const RealResult r = parse_real(c.text);
@@ -29,8 +44,8 @@ TEST(Number, ReadsRealsAsFortranWritesThem) {
 }
 
 TEST(Number, RefusesWhatIsNoReal) {
-  for (const char* text : {"1.0E", "1.0E+", "1.0e-", "e5", ".", "-", "+", "--1", "1..2", "1.2.3", "nan", "NaN", "inf", "-infinity", "0x10",
-                           "1,5", "1 5", "abc", "1e5.0", "1e+-5", "12abc"})
+  for (const char* text : {"1.0E", "1.0E+", "1.0e-",     "e5",   ".",   "-",   "+",   "--1",   "1..2",  "1.2.3", "nan",
+                           "NaN",  "inf",   "-infinity", "0x10", "1,5", "1 5", "abc", "1e5.0", "1e+-5", "12abc"})
     EXPECT_EQ(parse_real(text).state, NumberState::malformed) << text;
   for (const char* text : {"1e309", "-1e400", "1e999999999999", "9+999"})
     EXPECT_EQ(parse_real(text).state, NumberState::too_large) << text;

@@ -25,11 +25,13 @@ double value_of(const std::string& definitions, const std::string& field) {
 }
 
 TEST(Parameter, FixedAndFreeDefinitions) {
-  const std::string fixed = "*PARAMETER\nRVAL1      1.0       IVAL2      2         CVAL3      String    RVAL4      4.5e-3\n";
+  const std::string fixed =
+      "*PARAMETER\nRVAL1      1.0       IVAL2      2         CVAL3      String    RVAL4      4.5e-3\n";
   EXPECT_EQ(value_of(fixed, "&val1"), 1.0);
   EXPECT_EQ(value_of(fixed, "&VAL2"), 2);
   EXPECT_EQ(value_of(fixed, "-&val4"), -4.5e-3);
-  const std::string free_format = "*parameter\nrterm, 0.2, istaTES, 80\n*parameter\nr E          12.3\nr pR          00.321\n";
+  const std::string free_format =
+      "*parameter\nrterm, 0.2, istaTES, 80\n*parameter\nr E          12.3\nr pR          00.321\n";
   EXPECT_EQ(value_of(free_format, "&TERM"), 0.2);
   EXPECT_EQ(value_of(free_format, "&states"), 80);
   EXPECT_EQ(value_of(free_format, "&e"), 12.3);
@@ -47,7 +49,9 @@ TEST(Parameter, FixedColumnsOfUse) {
 }
 
 TEST(Parameter, TextParameters) {
-  Read read("*PARAMETER\nc name, MECH, c num, 2.5\n*SET_NODE_LIST\n1,0,0,0,0,&name\n*CONTROL_TERMINATION\n&num,\n*CONTROL_TERMINATION\n&name,\n");
+  Read read(
+      "*PARAMETER\nc name, MECH, c num, "
+      "2.5\n*SET_NODE_LIST\n1,0,0,0,0,&name\n*CONTROL_TERMINATION\n&num,\n*CONTROL_TERMINATION\n&name,\n");
   EXPECT_EQ(read.block(0).next("card0").text("solver"), "MECH");
   EXPECT_EQ(read.block(1).next("card0").real("endtim"), 2.5);
   EXPECT_TRUE(read.diagnostics.ok());
@@ -85,7 +89,8 @@ TEST(Parameter, Expressions) {
 
 TEST(Parameter, ExpressionDefinitions) {
   const std::string definitions =
-      "*parameter\nrterm, 0.2, istaTES, 80\n*parameter_expression\nrPlot, tErm/(States-30)\nr half    term/2\ni cut     2.9\n"
+      "*parameter\nrterm, 0.2, istaTES, 80\n*parameter_expression\nrPlot, tErm/(States-30)\nr half    term/2\ni cut    "
+      " 2.9\n"
       "r long    max(term,\n          plot)*10\n";
   EXPECT_DOUBLE_EQ(value_of(definitions, "&plot"), 0.004);
   EXPECT_DOUBLE_EQ(value_of(definitions, "&half"), 0.1);
@@ -98,10 +103,20 @@ TEST(Parameter, ExpressionFaultsSayWhatAndWhere) {
     const char *expression, *part;
     int column;
   };
-  for (const Case& c : {Case{"1/0", "division by zero", 5}, {"undef+1", "parameter 'undef' is not defined", 7}, {"(1+2", "')' is missing", 6},
-                        {"1+", "missing", 4}, {"sqrt(-1.0)", "no finite value", 12}, {"foo(1)", "no function 'foo'", 0}, {"sin(1,2)", "takes 1 argument", 0},
-                        {"1 $ 2", "not expected", 4}, {"10.0**400", "no finite value", 0}, {"9223372036854775000*10", "too large", 0},
-                        {"mod(1,0)", "division by zero", 0}, {"0**-1", "division by zero", 0}, {"1e999", "too large", 0}, {"1.2.3", "not a number", 0}}) {
+  for (const Case& c : {Case{"1/0", "division by zero", 5},
+                        {"undef+1", "parameter 'undef' is not defined", 7},
+                        {"(1+2", "')' is missing", 6},
+                        {"1+", "missing", 4},
+                        {"sqrt(-1.0)", "no finite value", 12},
+                        {"foo(1)", "no function 'foo'", 0},
+                        {"sin(1,2)", "takes 1 argument", 0},
+                        {"1 $ 2", "not expected", 4},
+                        {"10.0**400", "no finite value", 0},
+                        {"9223372036854775000*10", "too large", 0},
+                        {"mod(1,0)", "division by zero", 0},
+                        {"0**-1", "division by zero", 0},
+                        {"1e999", "too large", 0},
+                        {"1.2.3", "not a number", 0}}) {
     Read read(std::string("*CONTROL_TERMINATION\n<") + c.expression + ">,\n");
     EXPECT_EQ(end_times(read).at(0), 0);
     const Diagnostic* message = find_message(read.diagnostics, Severity::error, c.part);
@@ -115,11 +130,12 @@ TEST(Parameter, ExpressionFaultsSayWhatAndWhere) {
 }
 
 TEST(Parameter, DeepAndLongExpressionsEndInAnError) {
-  for (const std::string& expression : {std::string(100000, '('), std::string(3000, '('), "1" + std::string(5000, '0'), [] {
-         std::string power = "1";
-         for (int i = 0; i < 1000; ++i) power += "**1";
-         return power;
-       }()}) {
+  for (const std::string& expression :
+       {std::string(100000, '('), std::string(3000, '('), "1" + std::string(5000, '0'), [] {
+          std::string power = "1";
+          for (int i = 0; i < 1000; ++i) power += "**1";
+          return power;
+        }()}) {
     Read read("*CONTROL_TERMINATION\n<" + expression + ">,\n");
     end_times(read);
     EXPECT_EQ(read.diagnostics.error_count(), 1u) << expression.size();
@@ -127,7 +143,9 @@ TEST(Parameter, DeepAndLongExpressionsEndInAnError) {
 }
 
 TEST(Parameter, UndefinedAndBadReferences) {
-  Read read("*KEYWORD\n*NODE\n         1  &x_coord       0.0       0.0\n       1        &x_coord             0.0             0.0\n");
+  Read read(
+      "*KEYWORD\n*NODE\n         1  &x_coord       0.0       0.0\n       1        &x_coord             0.0             "
+      "0.0\n");
   read.block(0).for_each("card0", [](const Card& c) {
     c.integer("nid");
     c.real("x");
@@ -156,13 +174,16 @@ TEST(Parameter, BadDefinitions) {
 }
 
 TEST(Parameter, AValueHoldsFromItsDefinitionOn) {
-  Read read("*PARAMETER_DUPLICATION\n4\n*PARAMETER\nr a, 1.0\n*CONTROL_TERMINATION\n&a,\n*PARAMETER\nr a, 2.0\n*CONTROL_TERMINATION\n&a,\n");
+  Read read(
+      "*PARAMETER_DUPLICATION\n4\n*PARAMETER\nr a, 1.0\n*CONTROL_TERMINATION\n&a,\n*PARAMETER\nr a, "
+      "2.0\n*CONTROL_TERMINATION\n&a,\n");
   EXPECT_EQ(end_times(read), (std::vector<double>{1, 2}));
 }
 
 TEST(Parameter, DuplicationFollowsDflag) {
   const auto second = [](const char* flag, Severity severity, std::size_t messages) {
-    Read read(std::string("*PARAMETER_DUPLICATION\n") + flag + "\n*PARAMETER\nr a, 1.0\n*PARAMETER\nr a, 2.0\n*CONTROL_TERMINATION\n&a,\n");
+    Read read(std::string("*PARAMETER_DUPLICATION\n") + flag +
+              "\n*PARAMETER\nr a, 1.0\n*PARAMETER\nr a, 2.0\n*CONTROL_TERMINATION\n&a,\n");
     std::size_t found = 0;
     for (const Diagnostic& d : read.diagnostics.all()) found += d.severity == severity;
     EXPECT_EQ(found, messages) << flag << read.messages();
@@ -180,7 +201,8 @@ TEST(Parameter, DuplicationFollowsDflag) {
 
 TEST(Parameter, LocalParametersStayInTheirFileAndBelow) {
   TemporaryFolder folder;
-  folder.write("a.k", "*PARAMETER_LOCAL\nr loc, 1.0\n*PARAMETER\nr glob, 5.0\n*CONTROL_TERMINATION\n&loc,\n*INCLUDE\nbelow.k\n");
+  folder.write(
+      "a.k", "*PARAMETER_LOCAL\nr loc, 1.0\n*PARAMETER\nr glob, 5.0\n*CONTROL_TERMINATION\n&loc,\n*INCLUDE\nbelow.k\n");
   folder.write("below.k", "*CONTROL_TERMINATION\n&loc,\n");
   folder.write("b.k", "*PARAMETER_LOCAL\nr loc, 2.0\n*CONTROL_TERMINATION\n&loc,\n*CONTROL_TERMINATION\n&glob,\n");
   folder.write("c.k", "*CONTROL_TERMINATION\n&loc,\n");

@@ -9,7 +9,9 @@
 namespace kardan::deck {
 namespace {
 
-const Schema& schema() { return Schema::instance(); }
+const Schema& schema() {
+  return Schema::instance();
+}
 
 void expect_match(const char* name, const char* keyword, std::vector<std::string> options) {
   const KeywordMatch match = schema().match(name);
@@ -22,11 +24,13 @@ void expect_match(const char* name, const char* keyword, std::vector<std::string
 TEST(Schema, TakesOptionsOffTheName) {
   expect_match("NODE", "NODE", {});
   expect_match("CONSTRAINED_JOINT_REVOLUTE_ID_LOCAL", "CONSTRAINED_JOINT_REVOLUTE", {"ID", "LOCAL"});
-  expect_match("CONSTRAINED_JOINT_COOR_REVOLUTE_LOCAL_FAILURE", "CONSTRAINED_JOINT_COOR_REVOLUTE", {"LOCAL", "FAILURE"});
+  expect_match("CONSTRAINED_JOINT_COOR_REVOLUTE_LOCAL_FAILURE", "CONSTRAINED_JOINT_COOR_REVOLUTE",
+               {"LOCAL", "FAILURE"});
   expect_match("CONSTRAINED_JOINT_ROTATIONAL_MOTOR_ID", "CONSTRAINED_JOINT_ROTATIONAL_MOTOR", {"ID"});
   expect_match("PART_INERTIA_CONTACT", "PART", {"INERTIA", "CONTACT"});
   expect_match("CONSTRAINED_NODAL_RIGID_BODY_SPC_INERTIA", "CONSTRAINED_NODAL_RIGID_BODY", {"SPC", "INERTIA"});
-  expect_match("SET_NODE_LIST_GENERATE_INCREMENT_COLLECT_TITLE", "SET_NODE_LIST", {"GENERATE_INCREMENT", "COLLECT", "TITLE"});
+  expect_match("SET_NODE_LIST_GENERATE_INCREMENT_COLLECT_TITLE", "SET_NODE_LIST",
+               {"GENERATE_INCREMENT", "COLLECT", "TITLE"});
   expect_match("BOUNDARY_SPC_SET_BIRTH_DEATH_ID", "BOUNDARY_SPC_SET", {"BIRTH_DEATH", "ID"});
   expect_match("BOUNDARY_PRESCRIBED_MOTION_RIGID_LOCAL", "BOUNDARY_PRESCRIBED_MOTION_RIGID", {"LOCAL"});
   expect_match("PARAMETER_EXPRESSION_LOCAL", "PARAMETER", {"EXPRESSION", "LOCAL"});
@@ -81,7 +85,8 @@ TEST(Schema, WiderFormatsFollowFromTheStandardColumns) {
   const CardLayout& spring = schema().find("ELEMENT_DISCRETE")->card("card0");
   EXPECT_EQ(columns(spring, 1), (std::vector<int>{0, 10, 20, 30, 40, 50, 66, 76}));
   EXPECT_EQ(columns(schema().find("DEFINE_CURVE")->card("point"), 2), (std::vector<int>{0, 20}));
-  EXPECT_EQ(columns(schema().find("MAT_RIGID")->card("card0"), 1), columns(schema().find("MAT_RIGID")->card("card0"), 0));
+  EXPECT_EQ(columns(schema().find("MAT_RIGID")->card("card0"), 1),
+            columns(schema().find("MAT_RIGID")->card("card0"), 0));
 }
 
 TEST(Schema, EveryRowIsSound) {

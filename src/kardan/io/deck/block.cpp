@@ -48,7 +48,8 @@ bool Block::scan(std::size_t& cursor, int& next_number, std::string_view& line, 
     const char* begin = text_.data() + cursor;
     const std::size_t rest = text_.size() - cursor;
     const void* newline = std::memchr(begin, '\n', rest);
-    const std::size_t length = newline == nullptr ? rest : static_cast<std::size_t>(static_cast<const char*>(newline) - begin);
+    const std::size_t length =
+        newline == nullptr ? rest : static_cast<std::size_t>(static_cast<const char*>(newline) - begin);
     cursor += length + 1;
     number = next_number++;
     if (*begin == '$') continue;
@@ -60,7 +61,9 @@ bool Block::scan(std::size_t& cursor, int& next_number, std::string_view& line, 
   return false;
 }
 
-bool Block::take_line(std::string_view& line, int& number) { return scan(cursor_, cursor_line_, line, number); }
+bool Block::take_line(std::string_view& line, int& number) {
+  return scan(cursor_, cursor_line_, line, number);
+}
 
 void Block::open(Card& card, std::string_view line, int number) const {
   card.line_ = line;

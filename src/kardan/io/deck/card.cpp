@@ -19,7 +19,9 @@ std::string upper(std::string_view text) {
   return result;
 }
 
-bool refers(std::string_view text) { return text.find_first_of("&<") != std::string_view::npos; }
+bool refers(std::string_view text) {
+  return text.find_first_of("&<") != std::string_view::npos;
+}
 
 /// The comma that ends the value at `start`, or the end of the line.
 std::size_t end_of_value(std::string_view line, std::size_t start) {
@@ -64,8 +66,8 @@ std::string_view Card::field_text(int field, int& column) const {
   return text;
 }
 
-// Value number `position` of a comma-separated line; commas within <…> do not separate. Fields are mostly read from left
-// to right, so the place of the last one found is kept.
+// Value number `position` of a comma-separated line; commas within <…> do not separate. Fields are mostly read from
+// left to right, so the place of the last one found is kept.
 std::string_view Card::free_field(int position, bool to_end, int& column) const {
   if (position < free_position_) {
     free_position_ = 0;
@@ -77,7 +79,8 @@ std::string_view Card::free_field(int position, bool to_end, int& column) const 
     end = has_references_ ? end_of_value(line_, free_start_) : std::min(line_.find(',', free_start_), line_.size());
     if (free_position_ == position) break;
   }
-  const std::string_view text = trimmed(to_end ? line_.substr(free_start_) : line_.substr(free_start_, end - free_start_));
+  const std::string_view text =
+      trimmed(to_end ? line_.substr(free_start_) : line_.substr(free_start_, end - free_start_));
   if (!text.empty()) column = static_cast<int>(text.data() - line_.data()) + 1;
   return text;
 }
@@ -87,7 +90,9 @@ bool Card::blank(int field) const {
   return field_text(field, column).empty();
 }
 
-bool Card::all_blank() const { return !present_ || trimmed(line_).empty(); }
+bool Card::all_blank() const {
+  return !present_ || trimmed(line_).empty();
+}
 
 std::optional<ParameterValue> Card::evaluated(std::string_view text, const FieldLayout& field, int column) const {
   std::string_view body = text;
@@ -100,20 +105,23 @@ std::optional<ParameterValue> Card::evaluated(std::string_view text, const Field
   if (body.starts_with('&')) {
     expression = body;
     if (body.find_first_of(" \t+-*/()<>", 1) != std::string_view::npos || body.size() == 1) {
-      report(Severity::error, upper(field.name), column, fmt::format("found {}, expected &name and nothing else", in_quotes(text)),
+      report(Severity::error, upper(field.name), column,
+             fmt::format("found {}, expected &name and nothing else", in_quotes(text)),
              "write <expression> to compute with parameters");
       return std::nullopt;
     }
   } else if (body.starts_with('<')) {
     if (!body.ends_with('>')) {
-      report(Severity::error, upper(field.name), column, fmt::format("the expression {} does not end with '>' in its field", in_quotes(text)),
+      report(Severity::error, upper(field.name), column,
+             fmt::format("the expression {} does not end with '>' in its field", in_quotes(text)),
              "a field has its width: write a long expression in free format, with commas");
       return std::nullopt;
     }
     expression = body.substr(1, body.size() - 2);
   } else {
     report(Severity::error, upper(field.name), column,
-           fmt::format("found {}, expected a number or &name at the start of the field", in_quotes(text)), "check the columns of this line");
+           fmt::format("found {}, expected a number or &name at the start of the field", in_quotes(text)),
+           "check the columns of this line");
     return std::nullopt;
   }
   // A parameter alone may be a text; everything else is a number.
@@ -133,8 +141,9 @@ std::optional<ParameterValue> Card::evaluated(std::string_view text, const Field
   const ExpressionResult result = evaluate_expression(expression, block_->parameters_);
   if (!result.value) {
     const int offset = static_cast<int>(expression.data() - text.data() + static_cast<std::ptrdiff_t>(result.offset));
-    report(Severity::error, upper(field.name), column + offset, fmt::format("{}: {}", in_quotes(text), result.problem),
-           result.problem.find("not defined") != std::string::npos ? "define it with *PARAMETER before it is used" : "");
+    report(
+        Severity::error, upper(field.name), column + offset, fmt::format("{}: {}", in_quotes(text), result.problem),
+        result.problem.find("not defined") != std::string::npos ? "define it with *PARAMETER before it is used" : "");
     return std::nullopt;
   }
   ParameterValue value = *result.value;
@@ -148,7 +157,8 @@ std::optional<ParameterValue> Card::evaluated(std::string_view text, const Field
 void Card::malformed(const FieldLayout& field, int column, std::string_view found, NumberState state) const {
   const char* expected = field.type == 'I' ? "an integer" : "a real number";
   if (state == NumberState::too_large)
-    report(Severity::error, upper(field.name), column, fmt::format("{} is too large for {}", in_quotes(found), expected), {});
+    report(Severity::error, upper(field.name), column,
+           fmt::format("{} is too large for {}", in_quotes(found), expected), {});
   else
     report(Severity::error, upper(field.name), column, fmt::format("found {}, expected {}", in_quotes(found), expected),
            found.find(' ') != std::string_view::npos ? "check the columns of this line" : "");
@@ -164,8 +174,10 @@ std::int64_t Card::integer(int field) const {
     if (!value) return f.default_integer;
     if (const auto* integer = std::get_if<std::int64_t>(&*value)) return *integer;
     const double* real = std::get_if<double>(&*value);
-    if (real != nullptr && std::floor(*real) == *real && std::abs(*real) <= 9e15) return static_cast<std::int64_t>(*real);
-    report(Severity::error, upper(f.name), column, fmt::format("found {} = {}, expected an integer", in_quotes(text), to_string(*value)), {});
+    if (real != nullptr && std::floor(*real) == *real && std::abs(*real) <= 9e15)
+      return static_cast<std::int64_t>(*real);
+    report(Severity::error, upper(f.name), column,
+           fmt::format("found {} = {}, expected an integer", in_quotes(text), to_string(*value)), {});
     return f.default_integer;
   }
   const IntegerResult result = parse_integer(text);
@@ -204,7 +216,8 @@ std::string Card::text(int field) const {
   const std::string_view text = field_text(field, column);
   if (text.empty()) return f.default_text;
   if (has_references_ && text.starts_with('&') && text.size() > 1)
-    if (const ParameterValue* value = block_->parameters_.find(text.substr(1))) return std::string(trimmed(to_string(*value)));
+    if (const ParameterValue* value = block_->parameters_.find(text.substr(1)))
+      return std::string(trimmed(to_string(*value)));
   return std::string(text);
 }
 
@@ -227,7 +240,8 @@ Vec3 Card::direction(std::string_view first_field, Dimension d) const {
 
 Vec3 Card::point(std::string_view first_field) const {
   const int i = index_of(first_field);
-  return block_->context_->affine.point({real(i, dimension::length), real(i + 1, dimension::length), real(i + 2, dimension::length)});
+  return block_->context_->affine.point(
+      {real(i, dimension::length), real(i + 1, dimension::length), real(i + 2, dimension::length)});
 }
 
 SourceLocation Card::where() const {
@@ -264,7 +278,8 @@ void Card::report(Severity severity, std::string field, int column, std::string 
         last.message == message)
       return;
   }
-  diagnostics.add({severity, std::move(location), block_->as_written(), std::move(field), std::move(message), std::move(cure)});
+  diagnostics.add(
+      {severity, std::move(location), block_->as_written(), std::move(field), std::move(message), std::move(cure)});
 }
 
 double IncludeContext::factor(Dimension d) const {

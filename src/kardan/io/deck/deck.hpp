@@ -10,9 +10,9 @@
 //         use(card.id("n1", IdKind::node), card.real("rps"));
 //       }
 //
-// Includes are expanded, parameters and expressions evaluated field by field, keywords that Kardan does not need dropped,
-// and keywords that it cannot honour reported, before the blocks are handed out. Nothing here throws on bad input: every
-// fault goes into the Diagnostics, with file, line, column, keyword and field, and the reading goes on.
+// Includes are expanded, parameters and expressions evaluated field by field, keywords that Kardan does not need
+// dropped, and keywords that it cannot honour reported, before the blocks are handed out. Nothing here throws on bad
+// input: every fault goes into the Diagnostics, with file, line, column, keyword and field, and the reading goes on.
 #pragma once
 
 #include <array>
@@ -47,8 +47,8 @@ struct Dimension {
 };
 namespace dimension {
 inline constexpr Dimension none{}, mass{1, 0, 0}, length{0, 1, 0}, time{0, 0, 1}, area{0, 2, 0}, density{1, -3, 0},
-    velocity{0, 1, -1}, acceleration{0, 1, -2}, angular_velocity{0, 0, -1}, angular_acceleration{0, 0, -2}, force{1, 1, -2},
-    moment{1, 2, -2}, stress{1, -1, -2}, inertia{1, 2, 0}, stiffness{1, 0, -2}, damping{1, 0, -1},
+    velocity{0, 1, -1}, acceleration{0, 1, -2}, angular_velocity{0, 0, -1}, angular_acceleration{0, 0, -2},
+    force{1, 1, -2}, moment{1, 2, -2}, stress{1, -1, -2}, inertia{1, 2, 0}, stiffness{1, 0, -2}, damping{1, 0, -1},
     rotational_stiffness{1, 2, -2}, rotational_damping{1, 2, -1};
 }
 
@@ -76,7 +76,7 @@ struct IncludeContext {
 /// A malformed field is reported and its default returned; so is a field of a missing card, silently.
 class Card {
  public:
-  bool present() const { return present_; }  ///< false: the block had no line left
+  bool present() const { return present_; }    ///< false: the block had no line left
   int index_of(std::string_view field) const;  ///< asserts that the layout has it
   std::size_t field_count() const { return layout_->fields.size(); }
 
@@ -89,7 +89,8 @@ class Card {
     return blank(field) || real(field) == layout_->fields[static_cast<std::size_t>(field)].default_real;
   }
 
-  /// An integer; where the field is blank the table's default. "12.0" and a real parameter of integral value are accepted.
+  /// An integer; where the field is blank the table's default. "12.0" and a real parameter of integral value are
+  /// accepted.
   std::int64_t integer(std::string_view field) const { return integer(index_of(field)); }
   std::int64_t integer(int field) const;
   double real(std::string_view field) const { return real(index_of(field)); }
@@ -103,7 +104,8 @@ class Card {
   /// A user's number shifted by the include's offset; 0 stays 0, a negative number keeps its sign.
   std::int64_t id(std::string_view field, IdKind kind) const { return id(index_of(field), kind); }
   std::int64_t id(int field, IdKind kind) const;
-  /// Three consecutive fields as a point (length units, moved by the include's transformation) or a direction (unit-free).
+  /// Three consecutive fields as a point (length units, moved by the include's transformation) or a direction
+  /// (unit-free).
   Vec3 point(std::string_view first_field) const;
   Vec3 direction(std::string_view first_field, Dimension d = dimension::none) const;
 
@@ -142,9 +144,9 @@ class Card {
 /// One occurrence of a keyword with its data lines. Comment lines never appear.
 class Block {
  public:
-  std::string keyword;             ///< canonical name without asterisk, e.g. "SET_NODE_LIST" for *SET_NODE_TITLE
-  std::set<std::string> options;   ///< e.g. {"ID", "LOCAL"}
-  SourceLocation where;            ///< of the keyword line
+  std::string keyword;            ///< canonical name without asterisk, e.g. "SET_NODE_LIST" for *SET_NODE_TITLE
+  std::set<std::string> options;  ///< e.g. {"ID", "LOCAL"}
+  SourceLocation where;           ///< of the keyword line
   const KeywordInfo* info = nullptr;
 
   bool has(std::string_view option) const { return options.contains(std::string(option)); }
@@ -175,7 +177,10 @@ class Block {
     Card card = absent(card_name);
     while (advance(card)) f(std::as_const(card));
   }
-  void rewind() { cursor_ = 0; cursor_line_ = first_line_; }
+  void rewind() {
+    cursor_ = 0;
+    cursor_line_ = first_line_;
+  }
   void error(std::string message, std::string cure = {}) const;
   void warning(std::string message, std::string cure = {}) const;
 
@@ -220,8 +225,8 @@ struct ReadOptions {
   std::size_t max_bytes = std::size_t{64} << 30;  ///< of text, all files together
 };
 
-/// Reads a deck and everything it includes. `diagnostics` must outlive the Deck: its blocks report into it while they are
-/// consumed.
+/// Reads a deck and everything it includes. `diagnostics` must outlive the Deck: its blocks report into it while they
+/// are consumed.
 Deck read_deck(const std::filesystem::path& path, const ReadOptions& options, Diagnostics& diagnostics);
 
 /// The same for a deck in memory; `name` stands in the messages, includes are searched from `folder`.

@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string without_quotes(std::string_view name) {
-  if (name.size() > 1 && (name[0] == '"' || name[0] == '\'') && name.back() == name[0]) name = name.substr(1, name.size() - 2);
+  if (name.size() > 1 && (name[0] == '"' || name[0] == '\'') && name.back() == name[0])
+    name = name.substr(1, name.size() - 2);
   return std::string(name);
 }
 
@@ -30,7 +31,8 @@ std::string substituted(std::string name, const ParameterView& view) {
 
 }  // namespace
 
-/// The file names of an include; one that ends in " +" goes on in the next line. `only_first`: the lines after it are cards.
+/// The file names of an include; one that ends in " +" goes on in the next line. `only_first`: the lines after it are
+/// cards.
 std::vector<std::pair<std::string, SourceLocation>> DeckReader::file_names(Block& block, bool only_first) {
   std::vector<std::pair<std::string, SourceLocation>> names;
   std::string pending;
@@ -67,20 +69,22 @@ void DeckReader::add_include_path(const FileState& state, Block& block) {
 
 void DeckReader::include_transformed(const FileState& state, Block& block) {
   const auto names = file_names(block, true);
-  const Card ids = block.next_optional("ids"), others = block.next_optional("others"), units = block.next_optional("units"),
-             transformation = block.next_optional("transformation");
+  const Card ids = block.next_optional("ids"), others = block.next_optional("others"),
+             units = block.next_optional("units"), transformation = block.next_optional("transformation");
   if (names.empty()) return;
 
   const IncludeContext& outer = *state.context;
   auto context = std::make_shared<IncludeContext>(outer);
   context->trivial = false;
-  constexpr std::array<std::string_view, 7> fields = {"idnoff", "ideoff", "idpoff", "idmoff", "idsoff", "idfoff", "iddoff"};
-  constexpr std::array<IdKind, 7> kinds = {IdKind::node, IdKind::element, IdKind::part, IdKind::material,
+  constexpr std::array<std::string_view, 7> fields = {"idnoff", "ideoff", "idpoff", "idmoff",
+                                                      "idsoff", "idfoff", "iddoff"};
+  constexpr std::array<IdKind, 7> kinds = {IdKind::node, IdKind::element, IdKind::part,  IdKind::material,
                                            IdKind::set,  IdKind::curve,   IdKind::define};
   const auto shift = [&](IdKind kind, const Card& card, std::string_view field) {
     constexpr std::int64_t largest = 1'000'000'000'000;
     const std::int64_t offset = card.integer(field);
-    if (offset > largest || offset < -largest) return card.error(field, fmt::format("the offset {} is too large", offset));
+    if (offset > largest || offset < -largest)
+      return card.error(field, fmt::format("the offset {} is too large", offset));
     context->offset[static_cast<std::size_t>(kind)] += offset;
   };
   for (std::size_t i = 0; i < fields.size(); ++i) shift(kinds[i], ids, fields[i]);
@@ -102,7 +106,8 @@ void DeckReader::include_transformed(const FileState& state, Block& block) {
   if (const auto found = transformations_.find(id); found != transformations_.end())
     inner = found->second;
   else if (id != 0)
-    transformation.error("tranid", fmt::format("transformation {} is not defined", id), "*DEFINE_TRANSFORMATION stands before its use");
+    transformation.error("tranid", fmt::format("transformation {} is not defined", id),
+                         "*DEFINE_TRANSFORMATION stands before its use");
   if (!inner.is_identity || !outer.affine.is_identity) {
     // x -> A_o f_o (A_i f_i x + b_i) + b_o, written as factors first and one affine map after them.
     context->affine.linear = outer.affine.linear * inner.linear;
@@ -148,8 +153,8 @@ fs::path DeckReader::locate(const FileState& state, const std::string& name, std
   return {};
 }
 
-void DeckReader::include_file(const FileState& state, const std::string& name, const SourceLocation& where, const Block& block,
-                              std::shared_ptr<const IncludeContext> context) {
+void DeckReader::include_file(const FileState& state, const std::string& name, const SourceLocation& where,
+                              const Block& block, std::shared_ptr<const IncludeContext> context) {
   const auto fail = [&](std::string message, std::string cure = {}) {
     diagnostics_.error(std::move(message), std::move(cure), block.as_written(), where);
   };
@@ -157,26 +162,31 @@ void DeckReader::include_file(const FileState& state, const std::string& name, c
   std::string searched, problem;
   const Path path = locate(state, name, searched);
   if (path.empty())
-    return fail(fmt::format("the file '{}' is not found", name), Path(name).is_absolute() ? "" : "searched in: " + searched);
-  if (!allowed(path)) return fail(fmt::format("the file '{}' lies outside of the folder that includes are confined to", name));
+    return fail(fmt::format("the file '{}' is not found", name),
+                Path(name).is_absolute() ? "" : "searched in: " + searched);
+  if (!allowed(path))
+    return fail(fmt::format("the file '{}' lies outside of the folder that includes are confined to", name));
   std::error_code ignored;
   const Path canonical = fs::weakly_canonical(path, ignored);
   if (const auto first = std::find(open_files_.begin(), open_files_.end(), canonical); first != open_files_.end()) {
     std::string chain;
     for (auto file = first; file != open_files_.end(); ++file) chain += file->filename().string() + " -> ";
-    return fail(fmt::format("the includes go in a circle: {}{}", chain, canonical.filename().string()), "break the circle");
+    return fail(fmt::format("the includes go in a circle: {}{}", chain, canonical.filename().string()),
+                "break the circle");
   }
   if (open_files_.size() >= static_cast<std::size_t>(options_.max_include_depth))
     return fail(fmt::format("includes are nested deeper than {} files", options_.max_include_depth));
   if (deck_.files.size() >= options_.max_files) {
-    if (named_.insert("too many files").second) fail(fmt::format("the deck has more than {} files", options_.max_files));
+    if (named_.insert("too many files").second)
+      fail(fmt::format("the deck has more than {} files", options_.max_files));
     return;
   }
   FileState inner;
   inner.file = SourceFile::open(path, path.string(), problem);
   if (!inner.file) return fail(fmt::format("cannot read '{}': {}", name, problem));
   if (deck_.bytes + inner.file->text.size() > options_.max_bytes) {
-    if (named_.insert("too many bytes").second) fail(fmt::format("the deck has more than {} bytes", options_.max_bytes));
+    if (named_.insert("too many bytes").second)
+      fail(fmt::format("the deck has more than {} bytes", options_.max_bytes));
     return;
   }
   inner.folder = path.parent_path();

@@ -38,7 +38,8 @@ void DeckReader::read_parameters(FileState& state, Block& block) {
     for (int i = 0; i < 8; i += 2) {
       int column = 0, value_column = 0;
       const std::string_view name = card.field_text(i, column);
-      const std::string_view value = card.free_ ? card.free_field(i + 1, false, value_column) : card.field_text(i + 1, value_column);
+      const std::string_view value =
+          card.free_ ? card.free_field(i + 1, false, value_column) : card.field_text(i + 1, value_column);
       if (name.empty() && value.empty()) continue;
       define(state, card, column > 0 ? column : value_column, name, value, value_column, false);
     }
@@ -58,8 +59,10 @@ void DeckReader::read_parameter_expressions(FileState& state, Block& block) {
     const std::string_view line = card.expanded_.empty() ? card.line_ : std::string_view(card.expanded_);
     const std::size_t comma = line.find(',');
     std::string_view unused;
-    const bool is_free = comma != std::string_view::npos && split_typed_name(trimmed(line.substr(0, comma)), unused) != '\0';
-    const std::size_t split = is_free ? comma + 1 : std::min<std::size_t>(card.format_ == CardFormat::long_format ? 20 : 10, line.size());
+    const bool is_free =
+        comma != std::string_view::npos && split_typed_name(trimmed(line.substr(0, comma)), unused) != '\0';
+    const std::size_t split =
+        is_free ? comma + 1 : std::min<std::size_t>(card.format_ == CardFormat::long_format ? 20 : 10, line.size());
     const std::string_view name = trimmed(line.substr(0, is_free ? comma : split)), value = trimmed(line.substr(split));
     if (name.empty() && pending.present()) {
       if (pending_value.size() < 8192) pending_value += std::string(value);
@@ -102,11 +105,13 @@ void DeckReader::define(const FileState& state, const Card& card, int column, st
     const IntegerResult integer = parse_integer(value_text);
     if (plain.state != NumberState::ok) {
       card.report(Severity::error, "VAL", value_column,
-                  fmt::format("found '{}', expected {} for parameter '{}'", value_text, type == 'i' ? "an integer" : "a real number", name),
+                  fmt::format("found '{}', expected {} for parameter '{}'", value_text,
+                              type == 'i' ? "an integer" : "a real number", name),
                   "*PARAMETER_EXPRESSION computes");
       return;
     }
-    value = type == 'i' && integer.state == NumberState::ok ? ParameterValue(integer.value) : ParameterValue(plain.value);
+    value =
+        type == 'i' && integer.state == NumberState::ok ? ParameterValue(integer.value) : ParameterValue(plain.value);
   } else {
     std::string_view expression = value_text;
     if (expression.starts_with('<') && expression.ends_with('>') && expression.size() > 1)
@@ -124,7 +129,8 @@ void DeckReader::define(const FileState& state, const Card& card, int column, st
     if (const auto* integer = std::get_if<std::int64_t>(&value)) value = static_cast<double>(*integer);
   } else if (const auto* real = std::get_if<double>(&value)) {
     if (!(std::abs(*real) < 9e18)) {
-      card.report(Severity::error, "VAL", value_column, fmt::format("{} is too large for the integer parameter '{}'", value_text, name), {});
+      card.report(Severity::error, "VAL", value_column,
+                  fmt::format("{} is too large for the integer parameter '{}'", value_text, name), {});
       return;
     }
     value = static_cast<std::int64_t>(*real);
@@ -132,19 +138,20 @@ void DeckReader::define(const FileState& state, const Card& card, int column, st
   store(state, card, key, std::move(value), local, column);
 }
 
-// A second definition follows *PARAMETER_DUPLICATION DFLAG: 1 (default) keeps the first with a warning, 2 takes the new one
-// with a warning, 3 is an error, 4 takes the new one, 5 keeps the first.
-void DeckReader::store(const FileState& state, const Card& card, const std::string& name, ParameterValue value, bool local,
-                       int column) {
+// A second definition follows *PARAMETER_DUPLICATION DFLAG: 1 (default) keeps the first with a warning, 2 takes the new
+// one with a warning, 3 is an error, 4 takes the new one, 5 keeps the first.
+void DeckReader::store(const FileState& state, const Card& card, const std::string& name, ParameterValue value,
+                       bool local, int column) {
   const Parameters::Definition* first = parameters_->existing(name, local, state.scope);
   const bool is_mutable = card.block_->has("MUTABLE");
   if (first != nullptr && !is_mutable && first->value != value) {
     const bool keep = duplication_ == 1 || duplication_ == 3 || duplication_ == 5;
     if (duplication_ <= 3)
-      card.report(duplication_ == 3 ? Severity::error : Severity::warning, "PRMR", column,
-                  fmt::format("parameter '{}' is defined again as {}; {} ({}:{}) {}", name, to_string(value), to_string(first->value),
-                              first->where.file, first->where.line, keep ? "stays" : "is replaced"),
-                  "*PARAMETER_DUPLICATION decides, *PARAMETER_LOCAL keeps a parameter to its file");
+      card.report(
+          duplication_ == 3 ? Severity::error : Severity::warning, "PRMR", column,
+          fmt::format("parameter '{}' is defined again as {}; {} ({}:{}) {}", name, to_string(value),
+                      to_string(first->value), first->where.file, first->where.line, keep ? "stays" : "is replaced"),
+          "*PARAMETER_DUPLICATION decides, *PARAMETER_LOCAL keeps a parameter to its file");
     if (keep) return;
   }
   SourceLocation where = card.where();

@@ -17,7 +17,9 @@ std::string upper(std::string_view text) {
   return result;
 }
 
-int count_lines(std::string_view text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
+int count_lines(std::string_view text) {
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
 
 /// Position of the next line that begins with '*', from `from` (a line start) on; npos if there is none.
 std::size_t next_star(std::string_view text, std::size_t from) {
@@ -31,11 +33,14 @@ std::size_t next_star(std::string_view text, std::size_t from) {
   return std::string_view::npos;
 }
 
-bool contains(std::string_view text, char c) { return std::memchr(text.data(), c, text.size()) != nullptr; }
+bool contains(std::string_view text, char c) {
+  return std::memchr(text.data(), c, text.size()) != nullptr;
+}
 
 }  // namespace
 
-DeckReader::DeckReader(const ReadOptions& options, Diagnostics& diagnostics) : options_(options), diagnostics_(diagnostics) {}
+DeckReader::DeckReader(const ReadOptions& options, Diagnostics& diagnostics)
+    : options_(options), diagnostics_(diagnostics) {}
 
 void DeckReader::read_main(const std::filesystem::path& path) {
   std::string problem;
@@ -63,7 +68,8 @@ std::size_t DeckReader::first_keyword(const FileState& state, int& line) {
   const std::size_t first = next_star(text, 0);
   const std::string_view head = text.substr(0, first);
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    diagnostics_.error("the file is written in UTF-16", "save it as plain text (ASCII or UTF-8)", {}, {state.file->name, 1, 0});
+    diagnostics_.error("the file is written in UTF-16", "save it as plain text (ASCII or UTF-8)", {},
+                       {state.file->name, 1, 0});
     return std::string_view::npos;
   }
   int number = 0;
@@ -116,7 +122,8 @@ DeckReader::KeywordLine DeckReader::split_keyword_line(std::string_view line) {
   return keyword;
 }
 
-Block DeckReader::make_block(const FileState& state, const KeywordLine& keyword, std::string_view body, int line) const {
+Block DeckReader::make_block(const FileState& state, const KeywordLine& keyword, std::string_view body,
+                             int line) const {
   Block block;
   block.as_written_ = keyword.as_written;
   block.where = {state.file->name, line, 1};
@@ -165,8 +172,8 @@ bool DeckReader::stopped(const Block& block) {
   const bool contact = block.keyword.starts_with("CONTACT_") || block.keyword.starts_with("RIGIDWALL_");
   if (!named_.insert(block.as_written_).second) return true;
   if (contact && options_.without.contains("contact"))
-    diagnostics_.warning("left out at your wish (--without contact): parts may pass through each other", {}, block.as_written_,
-                         block.where);
+    diagnostics_.warning("left out at your wish (--without contact): parts may pass through each other", {},
+                         block.as_written_, block.where);
   else
     diagnostics_.error(block.info->note, "docs/keywords.md lists what Kardan honours", block.as_written_, block.where);
   return true;
@@ -176,10 +183,12 @@ void DeckReader::unknown(const Block& block) {
   if (!named_.insert(block.as_written_).second) return;
   // Guessing is slow; beyond the errors that are shown it is left out.
   const bool shown = diagnostics_.error_count() < Diagnostics::error_limit;
-  const std::string near = shown ? Schema::instance().nearest(std::string_view(block.as_written_).substr(1)) : std::string();
-  diagnostics_.error("unknown keyword; it may change the physics, so it is not passed over",
-                     near.empty() ? "docs/keywords.md lists what Kardan honours" : fmt::format("did you mean *{}?", near), block.as_written_,
-                     block.where);
+  const std::string near =
+      shown ? Schema::instance().nearest(std::string_view(block.as_written_).substr(1)) : std::string();
+  diagnostics_.error(
+      "unknown keyword; it may change the physics, so it is not passed over",
+      near.empty() ? "docs/keywords.md lists what Kardan honours" : fmt::format("did you mean *{}?", near),
+      block.as_written_, block.where);
 }
 
 bool DeckReader::handle_own(FileState& state, Block& block, std::string_view rest) {
@@ -240,8 +249,8 @@ Deck read_deck(const std::filesystem::path& path, const ReadOptions& options, Di
   return reader.take();
 }
 
-Deck read_deck_text(std::string text, const std::string& name, const std::filesystem::path& folder, const ReadOptions& options,
-                    Diagnostics& diagnostics) {
+Deck read_deck_text(std::string text, const std::string& name, const std::filesystem::path& folder,
+                    const ReadOptions& options, Diagnostics& diagnostics) {
   DeckReader reader(options, diagnostics);
   reader.read_main(SourceFile::from_text(std::move(text), name), folder);
   return reader.take();

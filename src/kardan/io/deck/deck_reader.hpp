@@ -50,9 +50,10 @@ class DeckReader {
   void read_keyword_options(FileState& state, std::string_view rest, const Block& block);
   void read_parameters(FileState& state, Block& block);
   void read_parameter_expressions(FileState& state, Block& block);
-  void define(const FileState& state, const Card& card, int column, std::string_view typed_name, std::string_view value_text,
-              int value_column, bool is_expression);
-  void store(const FileState& state, const Card& card, const std::string& name, ParameterValue value, bool local, int column);
+  void define(const FileState& state, const Card& card, int column, std::string_view typed_name,
+              std::string_view value_text, int value_column, bool is_expression);
+  void store(const FileState& state, const Card& card, const std::string& name, ParameterValue value, bool local,
+             int column);
   void read_transformation(Block& block);
 
   std::vector<std::pair<std::string, SourceLocation>> file_names(Block& block, bool only_first);

@@ -40,15 +40,24 @@ struct NamedFunction {
   Function function;
 };
 constexpr std::array<NamedFunction, 18> functions_of_one = {{
-    {"sin", [](double x) { return std::sin(x); }},     {"cos", [](double x) { return std::cos(x); }},
-    {"tan", [](double x) { return std::tan(x); }},     {"asin", [](double x) { return std::asin(x); }},
-    {"acos", [](double x) { return std::acos(x); }},   {"atan", [](double x) { return std::atan(x); }},
-    {"sinh", [](double x) { return std::sinh(x); }},   {"cosh", [](double x) { return std::cosh(x); }},
-    {"tanh", [](double x) { return std::tanh(x); }},   {"exp", [](double x) { return std::exp(x); }},
-    {"log", [](double x) { return std::log(x); }},     {"ln", [](double x) { return std::log(x); }},
-    {"log10", [](double x) { return std::log10(x); }}, {"sqrt", [](double x) { return std::sqrt(x); }},
-    {"aint", [](double x) { return std::trunc(x); }},  {"anint", [](double x) { return std::round(x); }},
-    {"float", [](double x) { return x; }},             {"real", [](double x) { return x; }},
+    {"sin", [](double x) { return std::sin(x); }},
+    {"cos", [](double x) { return std::cos(x); }},
+    {"tan", [](double x) { return std::tan(x); }},
+    {"asin", [](double x) { return std::asin(x); }},
+    {"acos", [](double x) { return std::acos(x); }},
+    {"atan", [](double x) { return std::atan(x); }},
+    {"sinh", [](double x) { return std::sinh(x); }},
+    {"cosh", [](double x) { return std::cosh(x); }},
+    {"tanh", [](double x) { return std::tanh(x); }},
+    {"exp", [](double x) { return std::exp(x); }},
+    {"log", [](double x) { return std::log(x); }},
+    {"ln", [](double x) { return std::log(x); }},
+    {"log10", [](double x) { return std::log10(x); }},
+    {"sqrt", [](double x) { return std::sqrt(x); }},
+    {"aint", [](double x) { return std::trunc(x); }},
+    {"anint", [](double x) { return std::round(x); }},
+    {"float", [](double x) { return x; }},
+    {"real", [](double x) { return x; }},
 }};
 
 class Evaluator {
@@ -154,14 +163,16 @@ class Evaluator {
   Number literal() {
     std::size_t end = at_;
     bool is_real = false;
-    while (end < text_.size() && (std::isdigit(static_cast<unsigned char>(text_[end])) || text_[end] == '.')) is_real |= text_[end++] == '.';
+    while (end < text_.size() && (std::isdigit(static_cast<unsigned char>(text_[end])) || text_[end] == '.'))
+      is_real |= text_[end++] == '.';
     // An exponent only with its letter: here "1.5-3" is a subtraction.
     if (end < text_.size() && std::string_view("eEdD").find(text_[end]) != std::string_view::npos) {
       std::size_t digits = end + 1;
       if (digits < text_.size() && (text_[digits] == '+' || text_[digits] == '-')) ++digits;
       if (digits < text_.size() && std::isdigit(static_cast<unsigned char>(text_[digits]))) {
         is_real = true;
-        for (end = digits; end < text_.size() && std::isdigit(static_cast<unsigned char>(text_[end])); ++end) {}
+        for (end = digits; end < text_.size() && std::isdigit(static_cast<unsigned char>(text_[end])); ++end) {
+        }
       }
     }
     const std::string_view number = text_.substr(at_, end - at_);
@@ -179,7 +190,8 @@ class Evaluator {
 
   Number parameter(const std::string& name) const {
     const ParameterValue* value = view_.find(name);
-    if (value == nullptr) fail(fmt::format("parameter {} is not defined here", name.empty() ? "without a name" : "'" + name + "'"));
+    if (value == nullptr)
+      fail(fmt::format("parameter {} is not defined here", name.empty() ? "without a name" : "'" + name + "'"));
     if (const auto* integer = std::get_if<std::int64_t>(value)) return Number::of(*integer);
     if (const auto* real = std::get_if<double>(value)) return Number::of(*real);
     fail(fmt::format("parameter '{}' is a text, a number is needed", name));
@@ -206,7 +218,8 @@ class Evaluator {
     for (const NamedFunction& f : functions_of_one)
       if (f.name == name) {
         need(1);
-        return checked(f.function(arguments[0].as_real()), name + "(" + fmt::format("{}", arguments[0].as_real()) + ")");
+        return checked(f.function(arguments[0].as_real()),
+                       name + "(" + fmt::format("{}", arguments[0].as_real()) + ")");
       }
     if (name == "abs") {
       need(1);

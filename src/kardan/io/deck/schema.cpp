@@ -23,7 +23,9 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   return parts;
 }
 
-int to_int(std::string_view digits) { return static_cast<int>(parse_integer(digits).value); }
+int to_int(std::string_view digits) {
+  return static_cast<int>(parse_integer(digits).value);
+}
 
 // "name:TypeColumn+Width[=default]"
 FieldLayout parse_field(std::string_view text) {
@@ -177,7 +179,8 @@ KeywordMatch Schema::match(std::string_view name) const {
   if (match.info == nullptr || name == "*") {
     match.info = nullptr;
     // A whole family, e.g. AIRBAG_*.
-    for (end = name.rfind('_'); end != std::string_view::npos && end > 0 && match.info == nullptr; end = name.rfind('_', end - 1))
+    for (end = name.rfind('_'); end != std::string_view::npos && end > 0 && match.info == nullptr;
+         end = name.rfind('_', end - 1))
       match.info = find(std::string(name.substr(0, end + 1)) + "*");
     return match;
   }

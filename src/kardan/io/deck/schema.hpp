@@ -1,4 +1,5 @@
-// The project's table of LS-DYNA keywords (schema/keywords.tsv, embedded in the program): status, options, card layouts.
+// The project's table of LS-DYNA keywords (schema/keywords.tsv, embedded in the program): status, options, card
+// layouts.
 #pragma once
 
 #include <array>
@@ -17,14 +18,15 @@ enum class KeywordStatus {
   stops        ///< leaving it out would change the physics, so it stops the run
 };
 
-/// The three widths a deck may be written in: 8/10/16/20 columns; `%` or I10=Y (8-wide integers become 10); LONG=Y (all 20).
+/// The three widths a deck may be written in: 8/10/16/20 columns; `%` or I10=Y (8-wide integers become 10); LONG=Y (all
+/// 20).
 enum class CardFormat : std::uint8_t { standard, i10, long_format };
 
 /// One field of a card. Columns count from 0.
 struct FieldLayout {
-  std::string name;  ///< lower case, e.g. "n1"
-  char type = 'F';   ///< 'I' integer, 'F' real, 'A' text
-  int position = 0;  ///< which comma-separated value it is in free format
+  std::string name;                      ///< lower case, e.g. "n1"
+  char type = 'F';                       ///< 'I' integer, 'F' real, 'A' text
+  int position = 0;                      ///< which comma-separated value it is in free format
   std::array<int, 3> column{}, width{};  ///< by CardFormat
   std::string default_text;              ///< empty: no default (0 or "")
   double default_real = 0;
@@ -40,11 +42,11 @@ struct CardLayout {
 
 /// One row of the table.
 struct KeywordInfo {
-  std::string name;                  ///< without the asterisk, upper case
+  std::string name;  ///< without the asterisk, upper case
   KeywordStatus status = KeywordStatus::stops;
   std::vector<std::string> options;  ///< suffixes beyond TITLE and ID that it takes, e.g. LOCAL, FAILURE
   std::string stops_if;              ///< it stops a run only where this field of card0 is not zero; empty: always
-  std::string note;                  ///< one line: what it does here, or what leaving it out would change and what to do
+  std::string note;  ///< one line: what it does here, or what leaving it out would change and what to do
   const CardLayout& card(std::string_view card_name) const;       ///< asserts that it is in the table
   const CardLayout* find_card(std::string_view card_name) const;  ///< nullptr where it is not
   std::vector<CardLayout> cards;

@@ -20,7 +20,8 @@ void SourceFile::set_text(std::string_view all) {
   text = all;
 }
 
-std::shared_ptr<const SourceFile> SourceFile::open(const std::filesystem::path& path, std::string name, std::string& problem) {
+std::shared_ptr<const SourceFile> SourceFile::open(const std::filesystem::path& path, std::string name,
+                                                   std::string& problem) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe must not make it wait
   if (descriptor < 0) {
     problem = std::strerror(errno);

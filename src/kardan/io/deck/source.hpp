@@ -18,7 +18,8 @@ struct SourceFile {
   ~SourceFile();
 
   /// Maps a file; nullptr with the reason in `problem` if it cannot be read.
-  static std::shared_ptr<const SourceFile> open(const std::filesystem::path& path, std::string name, std::string& problem);
+  static std::shared_ptr<const SourceFile> open(const std::filesystem::path& path, std::string name,
+                                                std::string& problem);
   static std::shared_ptr<const SourceFile> from_text(std::string text, std::string name);
 
  private:

@@ -11,9 +11,13 @@ namespace kardan::deck {
 
 namespace {
 
-Vec3 triple(const Card& card, int first) { return {card.real(first), card.real(first + 1), card.real(first + 2)}; }
+Vec3 triple(const Card& card, int first) {
+  return {card.real(first), card.real(first + 1), card.real(first + 2)};
+}
 
-Mat3 outer(const Vec3& a, const Vec3& b) { return {{{b * a.x, b * a.y, b * a.z}}}; }
+Mat3 outer(const Vec3& a, const Vec3& b) {
+  return {{{b * a.x, b * a.y, b * a.z}}};
+}
 
 /// Right-handed rotation by `angle` (radians) about the unit vector n (Rodrigues 1840).
 Mat3 rotation(const Vec3& n, double angle) {
@@ -56,7 +60,8 @@ void Transformation::add(const Card& step) {
     for (std::size_t i = 0; i < 3; ++i) {
       const int field = static_cast<int>(i) + 1;
       factors[i] = step.blank(field) ? 1.0 : step.real(field);
-      if (factors[i] == 0) step.error(step.where(field).column > 0 ? fmt::format("a{}", field) : "a1", "a scale factor is zero");
+      if (factors[i] == 0)
+        step.error(step.where(field).column > 0 ? fmt::format("a{}", field) : "a1", "a scale factor is zero");
     }
     apply(Mat3::diagonal(factors), {});
   } else if (option == "ROTATE") {
@@ -99,7 +104,8 @@ void Transformation::position(const Card& step) {
   std::array<Vec3, 6> p;
   for (std::size_t i = 0; i < 6; ++i) p[i] = named_point(step, fields[i]);
   Mat3 from, to;
-  if (!frame(p[0], p[1], p[2], from) || !frame(p[3], p[4], p[5], to)) return step.error("a1", "three of the points lie on one line");
+  if (!frame(p[0], p[1], p[2], from) || !frame(p[3], p[4], p[5], to))
+    return step.error("a1", "three of the points lie on one line");
   const Mat3 turn = to * transpose(from);
   apply(turn, p[3] - turn * p[0]);
 }
