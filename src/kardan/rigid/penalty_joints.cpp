@@ -9,11 +9,22 @@ namespace kardan {
 
 void PenaltyJoints::initialise(const Model& model, const JointSet& joints, Diagnostics& diagnostics) {
   joints.prepare(matrix_);
-  for (auto* by_row : {&force, &stiffness_, &damper_, &row_sum_}) by_row->assign(matrix_.rows(), 0.0);
+  for (auto* by_row : {&force, &stiffness_, &damper_}) by_row->assign(matrix_.rows(), 0.0);
   stored.assign(joints.joints.size(), 0.0);
   dissipated.assign(joints.joints.size(), 0.0);
   rps_.clear();
   damp_.clear();
+  groups_.clear();
+  first_group_.clear();
+  for (std::size_t j = 0; j < joints.joints.size(); ++j) {
+    first_group_.push_back(groups_.size());
+    const JointRuntime& joint = joints.joints[j];
+    if (joint.has_point) groups_.push_back({joints.offset[j], 0, 3});
+    for (int r = joint.point_rows(); r < joint.size; ++r) groups_.push_back({joints.offset[j] + r, r, 1});
+  }
+  first_group_.push_back(groups_.size());
+  inverse_mass_.assign(groups_.size(), 0.0);
+  sum_.assign(groups_.size(), 0.0);
   for (const JointRuntime& joint : joints.joints) {
     const Joint& deck = model.joints[joint.model_joint];
     if (deck.rps > largest_rps)
@@ -26,58 +37,68 @@ void PenaltyJoints::initialise(const Model& model, const JointSet& joints, Diagn
   }
 }
 
-void PenaltyJoints::refresh(const JointSet& joints, const BodySet& bodies, double h) {
-  joints.assemble(bodies, 0.0, matrix_);
-  const auto diagonal = [&](std::size_t j, int r) {
-    return matrix_.diagonal(static_cast<int>(j))[r * (joints.joints[j].size + 1)];
+void PenaltyJoints::find_group_sizes(const JointSet& joints) {
+  for (std::size_t j = 0; j < joints.joints.size(); ++j) {
+    const int m = joints.joints[j].size;
+    const double* const d = matrix_.diagonal(static_cast<int>(j));
+    for (std::size_t g = first_group_[j]; g < first_group_[j + 1]; ++g) {
+      if (groups_[g].size == 1) {
+        inverse_mass_[g] = d[groups_[g].row * (m + 1)];
+        continue;
+      }
+      Mat3 block;
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c <= r; ++c) block[r][c] = block[c][r] = d[r * m + c];
+      inverse_mass_[g] = principal_axes(block).values.z;
+    }
+  }
+}
+
+void PenaltyJoints::find_group_sums(const JointSet& joints) {
+  std::fill(sum_.begin(), sum_.end(), 1.0);
+  // Adds |A_gh| / sqrt(a_g a_h) to both groups; entry(r, c) is the matrix entry at their rows.
+  const auto couple = [&](std::size_t g, std::size_t h, const auto& entry) {
+    if (!(inverse_mass_[g] > 0 && inverse_mass_[h] > 0)) return;
+    double squares = 0;
+    for (int r = groups_[g].row; r < groups_[g].row + groups_[g].size; ++r)
+      for (int c = groups_[h].row; c < groups_[h].row + groups_[h].size; ++c) squares += entry(r, c) * entry(r, c);
+    const double share = std::sqrt(squares / (inverse_mass_[g] * inverse_mass_[h]));
+    sum_[g] += share;
+    sum_[h] += share;
   };
   for (std::size_t j = 0; j < joints.joints.size(); ++j) {
     const int m = joints.joints[j].size;
     const double* const d = matrix_.diagonal(static_cast<int>(j));
-    for (int r = 0; r < m; ++r) {
-      double sum = 0;
-      for (int c = 0; c < m; ++c) {
-        const double a = c < r ? d[r * m + c] : d[c * m + r];
-        const double scale = diagonal(j, r) * diagonal(j, c);
-        if (scale > 0) sum += std::abs(a) / std::sqrt(scale);
-      }
-      row_sum_[joints.offset[j] + r] = sum;
-    }
+    for (std::size_t g = first_group_[j]; g < first_group_[j + 1]; ++g)
+      for (std::size_t h = first_group_[j]; h < g; ++h) couple(g, h, [&](int r, int c) { return d[r * m + c]; });
   }
   for (std::size_t p = 0; p < matrix_.coupling_count(); ++p) {
     const BlockCholesky::Coupling& place = matrix_.coupling(p);
-    const auto row_joint = static_cast<std::size_t>(place.row_block), column_joint = static_cast<std::size_t>(place.column_block);
-    const int rows = joints.joints[row_joint].size, columns = joints.joints[column_joint].size;
+    const int columns = joints.joints[place.column_block].size;
     const double* const v = matrix_.values(place);
-    for (int r = 0; r < rows; ++r)
-      for (int c = 0; c < columns; ++c) {
-        const double scale = diagonal(row_joint, r) * diagonal(column_joint, c);
-        if (!(scale > 0)) continue;
-        const double share = std::abs(v[r * columns + c]) / std::sqrt(scale);
-        row_sum_[joints.offset[row_joint] + r] += share;
-        row_sum_[joints.offset[column_joint] + c] += share;
+    for (std::size_t g = first_group_[place.row_block]; g < first_group_[place.row_block + 1]; ++g)
+      for (std::size_t h = first_group_[place.column_block]; h < first_group_[place.column_block + 1]; ++h)
+        couple(g, h, [&](int r, int c) { return v[r * columns + c]; });
+  }
+}
+
+void PenaltyJoints::refresh(const JointSet& joints, const BodySet& bodies, double h) {
+  joints.assemble(bodies, 0.0, matrix_);
+  find_group_sizes(joints);
+  find_group_sums(joints);
+  const bool anew = h != refreshed_dt_;
+  for (std::size_t j = 0; j < joints.joints.size(); ++j)
+    for (std::size_t g = first_group_[j]; g < first_group_[j + 1]; ++g) {
+      const double a = inverse_mass_[g];
+      const double bound = a > 0 ? rps_[j] * beta / (h * h * a * sum_[g]) : 0.0;
+      const double k = stiffness_[groups_[g].first_row];
+      if (!anew && k <= soften_at * bound && bound <= stiffen_at * k) continue;
+      const double c = a > 0 ? 2.0 * damping_ratio * damp_[j] * std::sqrt(bound / a) : 0.0;
+      for (int r = 0; r < groups_[g].size; ++r) {
+        stiffness_[groups_[g].first_row + r] = bound;
+        damper_[groups_[g].first_row + r] = c;
       }
-  }
-  for (std::size_t j = 0; j < joints.joints.size(); ++j) {
-    const JointRuntime& joint = joints.joints[j];
-    for (int r = 0; r < joint.size; ++r) {
-      const std::size_t row = joints.offset[j] + r;
-      const double a = diagonal(j, r);
-      stiffness_[row] = a > 0 ? rps_[j] * beta / (h * h * a * row_sum_[row]) : 0.0;
     }
-    // The point's spring is the same in every direction: the softest of its three rows.
-    if (joint.has_point) {
-      const std::size_t first = joints.offset[j];
-      double k = 1e300;
-      for (int r = 0; r < 3; ++r)
-        if (stiffness_[first + r] > 0) k = std::min(k, stiffness_[first + r]);
-      for (int r = 0; r < 3; ++r) stiffness_[first + r] = k < 1e300 ? k : 0.0;
-    }
-    for (int r = 0; r < joint.size; ++r) {
-      const double a = diagonal(j, r);
-      damper_[joints.offset[j] + r] = a > 0 ? 2.0 * damping_ratio * damp_[j] * std::sqrt(stiffness_[joints.offset[j] + r] / a) : 0.0;
-    }
-  }
   refreshed_dt_ = h;
   age_ = 0;
 }

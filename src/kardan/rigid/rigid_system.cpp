@@ -74,6 +74,7 @@ RigidSystem::RigidSystem(const Model& model, State& state, JointHolding holding,
   state.registry.add({"joints.force", "force or moment", "rigid.kick"},
                      holding == JointHolding::exact ? s.exact.force : s.penalty.force);
   state.registry.add_value({"rigid.reported_work", "energy", "rigid.account"}, s.reported_work);
+  state.registry.add({"joints.penalty_stiffness", "force/length", "rigid.kick"}, s.penalty.stiffness());
   state.registry.add({"joints.penalty_dissipated", "energy", "rigid.kick"}, s.penalty.dissipated);
   s.motions.register_state(state);
   s.motors.register_state(state);
