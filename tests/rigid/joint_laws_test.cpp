@@ -119,6 +119,29 @@ TEST_P(JointLaw, MassRatioOfAMillion) {
   EXPECT_LT(run.system->largest_separation().distance, holding() == JointHolding::exact ? 1e-12 : 1e-4);
 }
 
+TEST_P(JointLaw, TwiceTheSameJointHoldsAsOnce) {
+  // The second joint repeats the first in every row: the motion is that of one, and the pair shares the force.
+  const Kind k = kind();
+  const auto make = [&](int copies) {
+    Mechanism m;
+    m.body(2.0, {-0.6, 0.3, 0.2}, skew_inertia({0.1, 0.2, 0.25}), {0.4, -0.3, 0.2}, {1.0, -2.0, 1.5});
+    m.body(1.0, {0.7, -0.1, 0.4}, skew_inertia({0.05, 0.08, 0.1}), {-0.2, 0.5, 0.1}, {-0.5, 1.0, 2.0});
+    for (int i = 0; i < copies; ++i) m.joint(k.kind, 0, 1, k.points).parameter = 1.7;
+    return m;
+  };
+  const Mechanism once = make(1), twice = make(2);
+  Simulation one(once.model, 1e-4, holding()), two(twice.model, 1e-4, holding());
+  one.to(0.5);
+  two.to(0.5);
+  const bool exact = holding() == JointHolding::exact;
+  EXPECT_LT(norm(one.motion(0).center - two.motion(0).center), exact ? 1e-10 : 1e-5);
+  EXPECT_LT(norm(one.motion(1).center - two.motion(1).center), exact ? 1e-10 : 1e-5);
+  EXPECT_LT(two.system->largest_separation().distance, exact ? 1e-12 : 1e-5);
+  if (exact) {
+    EXPECT_LT(norm(two.state.joints[0].force - two.state.joints[1].force), 1e-3 * (1e-3 + norm(one.state.joints[0].force)));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, JointLaw, testing::Combine(testing::Range(0, 12), testing::Values(0, 1)), name);
 
 TEST(Joints, RedundantFourBarMovesAsThePlanarOne) {
@@ -188,6 +211,22 @@ TEST(Joints, GearsTurnAgainstAndPulleysTurnWith) {
     // (I_a + I_b / ratio^2) w' = M, after the jump of the initial velocity: w0 = 3 I_a / (I_a + I_b / 4).
     EXPECT_NEAR(wa, (3 * 2.0 + 4.0) / (2.0 + 5.0 / 4.0), 1e-6);
   }
+}
+
+TEST(Joints, SliderMotorPushesAlongItsAxis) {
+  Mechanism m;
+  const PartIndex frame = m.ground();
+  const PartIndex slider = m.body(2.0, {0.1, 0.2, 0.3}, skew_inertia({1, 2, 3}));
+  const Vec3 o{0.1, 0.2, 0.3}, axis = normalized(Vec3{1, 2, 2}), x = o + axis, side = o + cross(axis, {1, 0, 0});
+  m.joint(JointKind::translational, frame, slider, {o, o, x, x, side, side});
+  Joint& motor = m.joint(JointKind::translational_motor, frame, slider, {o, o, x, x});
+  motor.curve = m.curve({0, 10}, {0, 5});  // way 0.5 t
+  motor.motor_type = 2;
+  Simulation run(m.model, 1e-3);
+  run.gravity = {0, 0, -9.81};
+  run.to(1.0);
+  EXPECT_LT(norm(run.motion(slider).center - (o + axis * 0.5)), 1e-12);
+  EXPECT_NEAR(dot(run.state.joints[1].force, axis), 2.0 * 9.81 * axis.z, 1e-6);  // carries the weight along the slope
 }
 
 TEST(Joints, MotorsFollowTheirCurve) {

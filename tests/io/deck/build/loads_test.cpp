@@ -31,7 +31,7 @@ TEST(BuildLoads, PrescribedMotions) {
                 "PRESCRIBED_MOTION_NODE\n25,9,2,1\n.5,.25\n26,1,0,0,2.5");
   ASSERT_TRUE(b.diagnostics.ok()) << b.messages();
   const auto& m = b.model.prescribed_motions;
-  ASSERT_EQ(m.size(), 5u);
+  ASSERT_EQ(m.size(), 4u);
   EXPECT_TRUE(m[0].local);
   EXPECT_EQ(m[0].kind, MotionKind::displacement);
   EXPECT_EQ(m[0].scale, -3);
@@ -41,11 +41,15 @@ TEST(BuildLoads, PrescribedMotions) {
   EXPECT_EQ(m[1].dof, -4);
   EXPECT_EQ(m[1].vector, 0);
   EXPECT_EQ(m[1].death, 1e28);
-  EXPECT_EQ(m[2].kind, MotionKind::relative_displacement);
-  EXPECT_EQ(m[2].lead_part, 1);
-  EXPECT_EQ(m[3].offset_1, .5);
+  // VAD = 4: a motor between the two bodies.
+  ASSERT_EQ(b.model.joints.size(), 1u);
+  EXPECT_EQ(b.model.joints[0].kind, JointKind::translational_motor);
+  EXPECT_EQ(b.model.joints[0].part_a, 1);
+  EXPECT_EQ(b.model.joints[0].part_b, 0);
+  EXPECT_EQ(b.model.joints[0].motor_type, 2);
+  EXPECT_EQ(m[2].offset_1, .5);
   // Curve 0: the factor acts as a constant, and that is said.
-  EXPECT_EQ(b.model.curves[static_cast<std::size_t>(m[4].curve)].value(0.7), 1.0);
+  EXPECT_EQ(b.model.curves[static_cast<std::size_t>(m[3].curve)].value(0.7), 1.0);
   EXPECT_NE(b.warning("acts as a constant"), nullptr);
 }
 

@@ -153,6 +153,7 @@ void Builder::build() {
     }
   }
   check_model(*this);
+  replace_relative_motions(*this);
   for (Curve& curve : model.curves) curve.prepare();
 }
 

@@ -175,6 +175,8 @@ void register_set(Builder&, Block&);
 
 void build_nodal_rigid_body(Builder&, Block&);
 void finish_nodal_rigid_bodies(Builder&);
+/// Motions relative to another body (VAD = 4) become motors between the two bodies.
+void replace_relative_motions(Builder&);
 void build_rigid_bodies(Builder&, Block&);
 void build_extra_nodes(Builder&, Block&);
 void build_stoppers(Builder&, Block&);

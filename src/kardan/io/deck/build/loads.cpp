@@ -85,6 +85,47 @@ void read_motion_extra(Builder& b, Block& block, PrescribedMotion& motion) {
 
 }  // namespace
 
+void replace_relative_motions(Builder& b) {
+  std::vector<PrescribedMotion> others;
+  for (PrescribedMotion& motion : b.model.prescribed_motions) {
+    if (motion.kind != MotionKind::relative_displacement || motion.lead_part == none || motion.body_part == none) {
+      others.push_back(std::move(motion));
+      continue;
+    }
+    const Part& part = b.model.parts[static_cast<std::size_t>(motion.body_part)];
+    const bool rotation = std::abs(motion.dof) >= 5;
+    Joint motor;
+    motor.id = motion.id;
+    motor.title = "motion of body " + std::to_string(part.id) + " relative to body " +
+                  std::to_string(b.model.parts[static_cast<std::size_t>(motion.lead_part)].id);
+    motor.kind = rotation ? JointKind::rotational_motor : JointKind::translational_motor;
+    motor.part_a = motion.lead_part;
+    motor.part_b = motion.body_part;
+    motor.motor_type = 2;
+    Curve scaled = b.model.curves[static_cast<std::size_t>(motion.curve)];
+    for (double& y : scaled.y) y *= motion.scale;
+    motor.curve = static_cast<CurveIndex>(b.model.curves.size());
+    b.model.curves.push_back(std::move(scaled));
+    Vec3 direction;
+    if (motion.lead_nodes[0] != none && motion.lead_nodes[1] != none) {
+      direction = b.model.nodes.x[static_cast<std::size_t>(motion.lead_nodes[1])] -
+                  b.model.nodes.x[static_cast<std::size_t>(motion.lead_nodes[0])];
+    } else if (motion.vector != none) {
+      const DirectionVector& v = b.model.vectors[static_cast<std::size_t>(motion.vector)];
+      direction = v.head - v.tail;
+    } else {
+      direction[static_cast<std::size_t>(rotation ? motion.dof - 5 : motion.dof - 1)] = 1.0;
+    }
+    const Vec3 at = part.inertia ? part.inertia->center : Vec3{};
+    motor.points = {at, at, at + direction, at + direction, at, at};
+    b.diagnostics.notice(motor.title + " (VAD = 4) is held by a " + to_string(motor.kind) +
+                             " between them; its force is in JNTFORC",
+                         "*BOUNDARY_PRESCRIBED_MOTION_RIGID");
+    b.model.joints.push_back(std::move(motor));
+  }
+  b.model.prescribed_motions = std::move(others);
+}
+
 void build_prescribed_motion(Builder& b, Block& block) {
   const bool rigid = block.keyword.find("_RIGID") != std::string::npos, set = block.keyword.ends_with("_SET");
   while (!block.at_end()) {
@@ -111,6 +152,10 @@ void build_prescribed_motion(Builder& b, Block& block) {
     if (!rigid &&
         (motion.kind == MotionKind::velocity_versus_displacement || motion.kind == MotionKind::relative_displacement)) {
       card.error("vad", "found " + card.text("vad") + ", which is for rigid bodies only", "use 0, 1 or 2");
+    }
+    if (motion.kind == MotionKind::relative_displacement && (motion.birth > 0 || motion.death < 1e20)) {
+      b.unsupported(card, "vad", "a motion relative to another body that starts or ends during the run is not available",
+                    "leave BIRTH and DEATH blank");
     }
     if (size == 4 || size == 8) {
       motion.vector = b.reference(card, "vid", b.vectors);
