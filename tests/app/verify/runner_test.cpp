@@ -1,0 +1,62 @@
+// A deck is run and sampled as case.json says.
+#include "kardan/app/verify/runner.hpp"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+namespace kardan::verify {
+namespace {
+
+class Runner : public ::testing::Test {
+ protected:
+  Runner() {
+    run_.name = "free";
+    run_.deck = std::filesystem::path(KARDAN_SOURCE_DIR) / "verification/mechanisms/law_part_inertia/part_inertia.k";
+    run_.sample = 0.02;
+    run_.steps = 8;
+    run_.end = 0.1;
+  }
+  verify::Run run_;
+};
+
+TEST_F(Runner, SamplesStandAtTheirTimes) {
+  const auto series = record(run_, {nlohmann::json::parse(R"({"body": 1, "quantity": "center", "components": [0]})")});
+  ASSERT_EQ(series.size(), 1u);
+  ASSERT_EQ(series[0].size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double t = 0.02 * static_cast<double>(i);
+    EXPECT_DOUBLE_EQ(series[0].time[i], t);
+    EXPECT_NEAR(series[0].values[i], 0.3 + t * t, 1e-13) << "constant force: leapfrog is exact";
+  }
+}
+
+TEST_F(Runner, WhatCannotBeRunIsSaid) {
+  run_.deck = "/nowhere/deck.k";
+  EXPECT_THROW(record(run_, {}), CaseError);
+}
+
+TEST_F(Runner, UnknownBodiesAreRefused) {
+  EXPECT_THROW(record(run_, {nlohmann::json::parse(R"({"body": 99, "quantity": "center"})")}), CaseError);
+}
+
+TEST_F(Runner, ARunThatEndsEarlyIsRefused) {
+  const auto file = std::filesystem::path(::testing::TempDir()) / "kardan_verify_endcyc.k";
+  {
+    std::ifstream in(run_.deck);
+    std::ofstream out(file);
+    for (std::string line; std::getline(in, line);) {
+      out << line << '\n';
+      if (line == "*CONTROL_TERMINATION") {
+        std::getline(in, line);
+        out << "1,5\n";  // ENDCYC
+      }
+    }
+  }
+  run_.deck = file;
+  EXPECT_THROW(record(run_, {nlohmann::json::parse(R"({"energy": "total"})")}), CaseError);
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace kardan::verify
