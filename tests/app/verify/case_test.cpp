@@ -50,15 +50,18 @@ class Folder : public ::testing::Test {
  protected:
   Folder() { std::filesystem::create_directories(folder_); }
   ~Folder() override { std::filesystem::remove_all(folder_.parent_path()); }
-  void write(const std::string& figure, const std::string& run = R"("deck": "d.k", "sample": 1, "steps": 2, "end": 4)") {
+  void write(const std::string& figure,
+             const std::string& run = R"("deck": "d.k", "sample": 1, "steps": 2, "end": 4)") {
     std::ofstream(folder_ / "case.json") << R"({"title": "t", "proves": "p", "source": "s", "runs": {"r": {)" << run
                                          << R"(}}, "figures": [{)" << figure << "}]}";
   }
-  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / "kardan_verify_cases" / "group" / "case";
+  std::filesystem::path folder_ =
+      std::filesystem::path(::testing::TempDir()) / "kardan_verify_cases" / "group" / "case";
 };
 
 TEST_F(Folder, ReadsRunsAndFigures) {
-  write(R"("figure": "f", "run": "r", "signal": {"energy": "total"}, "measure": "drift", "scale": "initial", "limit": 0.5)");
+  write(
+      R"("figure": "f", "run": "r", "signal": {"energy": "total"}, "measure": "drift", "scale": "initial", "limit": 0.5)");
   const Case c = read_case(folder_, "group");
   EXPECT_EQ(c.name, "case");
   EXPECT_DOUBLE_EQ(c.runs.at("r").dt(), 0.5);
@@ -68,13 +71,15 @@ TEST_F(Folder, ReadsRunsAndFigures) {
 }
 
 TEST_F(Folder, MisspeltEntriesAreRefused) {
-  const std::string good = R"("figure": "f", "run": "r", "signal": {"energy": "total"}, "measure": "drift", "limit": 0.5)";
+  const std::string good =
+      R"("figure": "f", "run": "r", "signal": {"energy": "total"}, "measure": "drift", "limit": 0.5)";
   write(good);
   EXPECT_NO_THROW(read_case(folder_, "group"));
-  for (const char* bad : {R"("figure": "f", "run": "r", "signal": {}, "measure": "drift", "limits": 0.5)",
-                          R"("figure": "f", "run": "x", "signal": {}, "measure": "drift", "limit": 0.5)",
-                          R"("figure": "f", "run": "r", "signal": {}, "measure": "order", "limit": 0.5)",
-                          R"("figure": "f", "run": "r", "signal": {}, "measure": "drift", "scale": "big", "limit": 0.5)"}) {
+  for (const char* bad :
+       {R"("figure": "f", "run": "r", "signal": {}, "measure": "drift", "limits": 0.5)",
+        R"("figure": "f", "run": "x", "signal": {}, "measure": "drift", "limit": 0.5)",
+        R"("figure": "f", "run": "r", "signal": {}, "measure": "order", "limit": 0.5)",
+        R"("figure": "f", "run": "r", "signal": {}, "measure": "drift", "scale": "big", "limit": 0.5)"}) {
     write(bad);
     EXPECT_THROW(read_case(folder_, "group"), CaseError) << bad;
   }

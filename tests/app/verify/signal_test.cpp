@@ -48,15 +48,18 @@ TEST_F(Signals, ComponentsProductsAndFactors) {
   expect_near(evaluate(R"({"body": 7, "quantity": "velocity", "components": [2, 0]})"), {12, 3});
   expect_near(evaluate(R"({"body": 7, "quantity": "velocity", "along": [0, 1, 1], "factor": 2, "offset": 1})"), {33});
   expect_near(evaluate(R"({"body": 7, "quantity": "velocity", "norm": true})"), {13});
-  expect_near(evaluate(R"({"sum": [{"body": 7, "quantity": "velocity"}, {"body": 7, "quantity": "center", "factor": -1}]})"),
-              {2, 4, 12});
+  expect_near(
+      evaluate(R"({"sum": [{"body": 7, "quantity": "velocity"}, {"body": 7, "quantity": "center", "factor": -1}]})"),
+      {2, 4, 12});
   expect_near(evaluate(R"({"quotient": [{"body": 7, "quantity": "velocity", "components": [2]},
-                                        {"body": 7, "quantity": "velocity", "components": [0]}]})"), {4});
+                                        {"body": 7, "quantity": "velocity", "components": [0]}]})"),
+              {4});
 }
 
 TEST_F(Signals, TurnsAreCountedBeyondHalfATurn) {
   for (const double sense : {1.0, -1.0}) {
-    const auto fresh = make_signal(json::parse(R"({"body": 7, "quantity": "turn", "axis": [0, 0, 2]})"), model_, state_);
+    const auto fresh =
+        make_signal(json::parse(R"({"body": 7, "quantity": "turn", "axis": [0, 0, 2]})"), model_, state_);
     for (int i = 0; i <= 100; ++i) {
       const double angle = sense * 0.2 * i;
       turn({0, 0, std::remainder(angle, 2 * std::numbers::pi)});
@@ -102,8 +105,8 @@ TEST_F(Signals, MomentumCountsSpinAndPath) {
 TEST_F(Signals, UnknownThingsAreRefused) {
   for (const char* bad : {R"({"body": 8, "quantity": "center"})", R"({"body": 7, "quantity": "centre"})",
                           R"({"node": 1, "quantity": "position"})", R"({"joint": 1, "quantity": "force"})",
-                          R"({"stiffness": 1, "quantity": "total"})", R"({"energy": "dark"})", R"({"sum": []})", R"({})",
-                          R"({"body": 7})", R"({"joint": "all", "quantity": "force"})"})
+                          R"({"stiffness": 1, "quantity": "total"})", R"({"energy": "dark"})", R"({"sum": []})",
+                          R"({})", R"({"body": 7})", R"({"joint": "all", "quantity": "force"})"})
     EXPECT_THROW(evaluate(bad), CaseError) << bad;
 }
 

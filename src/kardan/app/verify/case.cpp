@@ -128,9 +128,8 @@ std::vector<Case> read_cases(const std::filesystem::path& root) {
         cases.push_back(read_case(folder.path(), group.path().filename().string()));
   }
   if (missing) throw CaseError(root.string() + ": " + missing.message());
-  std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) {
-    return std::pair(a.group, a.name) < std::pair(b.group, b.name);
-  });
+  std::sort(cases.begin(), cases.end(),
+            [](const Case& a, const Case& b) { return std::pair(a.group, a.name) < std::pair(b.group, b.name); });
   return cases;
 }
 

@@ -20,19 +20,19 @@ struct Run {
   std::string name;
   std::filesystem::path deck;
   JointHolding joints = JointHolding::exact;
-  double sample = 0;        ///< interval at which signals are recorded
-  std::int64_t steps = 1;   ///< cycles in one such interval
-  double end = 0;           ///< time of the last sample
-  bool is_long = false;     ///< takes too long for every test run: only with "-long" behind the name
+  double sample = 0;       ///< interval at which signals are recorded
+  std::int64_t steps = 1;  ///< cycles in one such interval
+  double end = 0;          ///< time of the last sample
+  bool is_long = false;    ///< takes too long for every test run: only with "-long" behind the name
 
   double dt() const { return sample / static_cast<double>(steps); }
 };
 
 /// Where the wanted values come from.
 struct Oracle {
-  std::filesystem::path file;          ///< a table; or
-  std::vector<std::string> columns;    ///< (columns of that table)
-  std::string run;                     ///< another signal, of this run; or
+  std::filesystem::path file;        ///< a table; or
+  std::vector<std::string> columns;  ///< (columns of that table)
+  std::string run;                   ///< another signal, of this run; or
   nlohmann::json signal;
   std::vector<double> value;           ///< constant components
   double time_factor = 1, factor = 1;  ///< the table says factor * o(t / time_factor) at t

@@ -10,7 +10,9 @@ namespace kardan::verify {
 namespace {
 
 /// The maximum, in which a NaN is not lost: it counts as infinite.
-double larger(double a, double b) { return std::isnan(b) ? std::numeric_limits<double>::infinity() : std::max(a, b); }
+double larger(double a, double b) {
+  return std::isnan(b) ? std::numeric_limits<double>::infinity() : std::max(a, b);
+}
 
 struct Pair {
   std::size_t signal, oracle;
@@ -113,8 +115,10 @@ double measure(const Comparison& c, const Series& signal, const std::optional<Se
     return *oracle;
   };
   switch (c.measure) {
-    case Measure::max_error: return scaled(c, largest_error(c, signal, needed(), false), signal, oracle);
-    case Measure::quaternion_error: return scaled(c, largest_error(c, signal, needed(), true), signal, oracle);
+    case Measure::max_error:
+      return scaled(c, largest_error(c, signal, needed(), false), signal, oracle);
+    case Measure::quaternion_error:
+      return scaled(c, largest_error(c, signal, needed(), true), signal, oracle);
     case Measure::final_error: {
       const Pair last = matched(signal, needed(), c.from, c.until).back();
       return scaled(c, distance(signal.at(last.signal), oracle->at(last.oracle), 1), signal, oracle);
@@ -123,10 +127,14 @@ double measure(const Comparison& c, const Series& signal, const std::optional<Se
       const double reached = peak(signal, c.from, c.until), wanted = peak(needed(), c.from, c.until);
       return scaled(c, std::abs(reached - wanted), signal, oracle);
     }
-    case Measure::largest: return scaled(c, peak(signal, c.from, c.until), signal, oracle);
-    case Measure::drift: return scaled(c, drift(c, signal), signal, oracle);
-    case Measure::crossing_error: return crossing_error(c, signal);
-    case Measure::order: break;
+    case Measure::largest:
+      return scaled(c, peak(signal, c.from, c.until), signal, oracle);
+    case Measure::drift:
+      return scaled(c, drift(c, signal), signal, oracle);
+    case Measure::crossing_error:
+      return crossing_error(c, signal);
+    case Measure::order:
+      break;
   }
   throw CaseError("an order of convergence is measured on two runs");
 }

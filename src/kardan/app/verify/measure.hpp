@@ -38,8 +38,9 @@ struct Comparison {
   std::vector<double> crossings;   ///< crossing_error: expected times; the run must have at least as many
 };
 
-/// One number for the distance of `signal` from `oracle` (needed by all measures with an o above). Samples are matched by
-/// time, never interpolated: a sample belongs to an oracle's time if they differ by less than 1e-6 of the sampling interval.
+/// One number for the distance of `signal` from `oracle` (needed by all measures with an o above). Samples are matched
+/// by time, never interpolated: a sample belongs to an oracle's time if they differ by less than 1e-6 of the sampling
+/// interval.
 /// @throws CaseError if no time matches, or widths differ.
 double measure(const Comparison& comparison, const Series& signal, const std::optional<Series>& oracle);
 

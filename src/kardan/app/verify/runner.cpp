@@ -23,8 +23,9 @@ class Recorder : public Observer {
     const auto n = state.clock.cycle / run_.steps;
     const double t = static_cast<double>(n) * run_.sample;
     if (std::abs(state.clock.time - t) > 1e-6 * run_.dt())
-      throw CaseError("run " + run_.name + ": sample " + std::to_string(n) + " is at t = " +
-                      std::to_string(state.clock.time) + " instead of " + std::to_string(t) + ": the step was not kept");
+      throw CaseError("run " + run_.name + ": sample " + std::to_string(n) +
+                      " is at t = " + std::to_string(state.clock.time) + " instead of " + std::to_string(t) +
+                      ": the step was not kept");
     samples_ = n;
     for (std::size_t i = 0; i < signals_.size(); ++i) {
       const auto values = signals_[i](state);

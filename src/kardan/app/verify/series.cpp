@@ -47,8 +47,8 @@ Series read_table(const std::filesystem::path& file, const std::vector<std::stri
   for (std::size_t n = 2; std::getline(in, line); ++n) {
     const auto fields = split(line);
     if (fields.size() != count)
-      throw CaseError(file.string() + ":" + std::to_string(n) + ": " + std::to_string(fields.size()) + " fields, expected " +
-                      std::to_string(count));
+      throw CaseError(file.string() + ":" + std::to_string(n) + ": " + std::to_string(fields.size()) +
+                      " fields, expected " + std::to_string(count));
     series.time.push_back(number(fields[0], file, n));
     for (const std::size_t i : pick) series.values.push_back(number(fields[i], file, n));
   }

@@ -19,10 +19,16 @@ using nlohmann::json;
   throw CaseError("signal " + description.dump() + ": " + why);
 }
 
-std::vector<double> components(const Vec3& v) { return {v.x, v.y, v.z}; }
-std::vector<double> components(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+std::vector<double> components(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+std::vector<double> components(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
 
-Vec3 vector_of(const json& list) { return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()}; }
+Vec3 vector_of(const json& list) {
+  return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
+}
 
 std::size_t body_index(const json& d, const json& id_entry, const State& state) {
   const auto id = id_entry.get<UserId>();
@@ -81,7 +87,8 @@ Signal body_signal(const json& d, const State& state) {
     Quat start;
     if (d.contains("initial")) {
       const json& q = d["initial"];
-      start = normalized(Quat{q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(), q.at(3).get<double>()});
+      start =
+          normalized(Quat{q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(), q.at(3).get<double>()});
     }
     return [b, start](const State& s) {
       const Quat q = turned(s.bodies, b) * start;

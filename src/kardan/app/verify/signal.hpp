@@ -38,7 +38,8 @@ using Signal = std::function<std::vector<double>(const State&)>;
 ///   {"join": [signals]}                all components one after the other
 ///   {"quotient": [a, b]}               a / b, scalars
 ///
-/// and, in this order, "along": [x, y, z] (scalar product), "components": [i, …], "norm": true, "factor": f, "offset": o.
+/// and, in this order, "along": [x, y, z] (scalar product), "components": [i, …], "norm": true, "factor": f, "offset":
+/// o.
 /// @throws CaseError if it is not understood or names something that the model has not.
 Signal make_signal(const nlohmann::json& description, const Model& model, const State& state);
 

@@ -71,13 +71,14 @@ double value_of(const Case& of, const Figure& figure, const Recordings& recordin
                    figure.oracle ? oracle_series(*figure.oracle, recordings, signal) : std::optional<Series>{});
   };
   if (figure.comparison.measure != Measure::order) return measured(figure.runs[0], figure.comparison.measure);
-  const double coarse = measured(figure.runs[0], Measure::max_error), fine = measured(figure.runs[1], Measure::max_error);
+  const double coarse = measured(figure.runs[0], Measure::max_error),
+               fine = measured(figure.runs[1], Measure::max_error);
   return std::log(coarse / fine) / std::log(of.runs.at(figure.runs[0]).dt() / of.runs.at(figure.runs[1]).dt());
 }
 
 json to_json(const Result& r) {
-  json line{{"case", r.of->name}, {"figure", r.figure->name}, {"value", r.value}, {"unit", r.figure->unit},
-            {"limit", r.figure->limit}, {"pass", r.pass}};
+  json line{{"case", r.of->name},     {"figure", r.figure->name}, {"value", r.value},
+            {"unit", r.figure->unit}, {"limit", r.figure->limit}, {"pass", r.pass}};
   if (!std::isfinite(r.value)) line["value"] = nullptr;
   if (r.figure->at_least) line["limit_is"] = "at least";
   if (!r.failure.empty()) line["failure"] = r.failure;
@@ -85,8 +86,8 @@ json to_json(const Result& r) {
 }
 
 std::string as_text(const Result& r) {
-  return fmt::format("{:<24} {:<58} {:>11.3e} {:<6} {:>2} {:<9.3g} {}", r.of->name, r.figure->name, r.value, r.figure->unit,
-                     r.figure->at_least ? ">=" : "<=", r.figure->limit, r.pass ? "pass" : "FAIL");
+  return fmt::format("{:<24} {:<58} {:>11.3e} {:<6} {:>2} {:<9.3g} {}", r.of->name, r.figure->name, r.value,
+                     r.figure->unit, r.figure->at_least ? ">=" : "<=", r.figure->limit, r.pass ? "pass" : "FAIL");
 }
 
 std::string as_markdown(const Result& r) {
@@ -116,7 +117,8 @@ void print(const Options& options, const std::vector<Result>& results, double se
   if (results.empty()) return;
   const Case& c = *results.front().of;
   if (options.markdown)
-    out << "\n### " << c.name << ": " << c.title << "\n\n" << c.proves << "\n\nOracle: " << c.source
+    out << "\n### " << c.name << ": " << c.title << "\n\n"
+        << c.proves << "\n\nOracle: " << c.source
         << fmt::format("\n\n| figure | value | limit | unit | holds |\n|---|---|---|---|---|\n");
   std::string told;  // a run that cannot be made fails many figures: said once
   for (const Result& r : results) {
@@ -197,7 +199,8 @@ int run(const Options& options, std::ostream& out, std::ostream& log) try {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     print(options, results, wall.count(), out);
     total += results.size();
-    failed += static_cast<std::size_t>(std::count_if(results.begin(), results.end(), [](const Result& r) { return !r.pass; }));
+    failed += static_cast<std::size_t>(
+        std::count_if(results.begin(), results.end(), [](const Result& r) { return !r.pass; }));
   }
   log << fmt::format("{} figures, {} fall short\n", total, failed);
   return failed == 0 ? 0 : 1;
