@@ -7,10 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <ctime>
 #include <vector>
 
+#include "options.hpp"
 #include "rigid/mechanism.hpp"
 
 namespace {
@@ -37,13 +36,6 @@ test::Mechanism chain(int rods, JointKind kind) {
   return m;
 }
 
-/// Processor time of this thread: other processes on the machine do not count.
-double thread_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 struct Figures {
   double ns = 0, separation = 0, drift = 0;
 };
@@ -65,9 +57,9 @@ Figures measure(int rods, JointKind kind, JointHolding holding, double seconds) 
   std::vector<double> samples;
   double spent = 0, kinetic = 0;
   while (spent < seconds) {
-    const double begin = thread_seconds();
+    const double begin = bench::thread_seconds();
     run.to(steps_time + 0.01);
-    const double elapsed = thread_seconds() - begin;
+    const double elapsed = bench::thread_seconds() - begin;
     samples.push_back(elapsed / 100 / rods * 1e9);
     steps_time += 0.01;
     spent += elapsed;
@@ -81,11 +73,7 @@ Figures measure(int rods, JointKind kind, JointHolding holding, double seconds) 
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool json = false, quick = false;
-  for (int i = 1; i < argc; ++i) {
-    json |= std::strcmp(argv[i], "--json") == 0;
-    quick |= std::strcmp(argv[i], "--quick") == 0;
-  }
+  const auto [json, quick] = bench::Options(argc, argv);
   if (!json) fmt::print("{:<12} {:<8} {:>7} {:>16} {:>14} {:>14}\n", "joint", "held", "rods", "ns/joint-step", "separation m", "energy drift");
   for (const auto kind : {JointKind::spherical, JointKind::revolute})
     for (const auto holding : {JointHolding::exact, JointHolding::penalty})

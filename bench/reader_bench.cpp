@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "options.hpp"
+
 #include "kardan/io/deck/deck.hpp"
 
 namespace {
@@ -53,7 +55,7 @@ double seconds_since(std::clock_t start) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-bool measure(const fs::path& path, const char* label, std::size_t expected_nodes) {
+bool measure(const fs::path& path, const char* label, std::size_t expected_nodes, bool json) {
   double best_split = 1e9, best_all = 1e9;
   std::size_t bytes = 0, nodes_read = 0, shells_read = 0;
   for (int repeat = 0; repeat < 3; ++repeat) {
@@ -83,6 +85,12 @@ bool measure(const fs::path& path, const char* label, std::size_t expected_nodes
     if (!diagnostics.ok()) return false;
   }
   const double megabytes = static_cast<double>(bytes) / 1e6;
+  if (json) {
+    fmt::print("{{\"case\":\"reader\",\"deck\":\"{}\",\"megabytes\":{:.1f},\"nodes\":{},\"shells\":{},\"split_mb_per_s\":{:.0f},"
+               "\"decoded_mb_per_s\":{:.0f}}}\n", label, megabytes, nodes_read, shells_read, megabytes / best_split,
+               megabytes / best_all);
+    return nodes_read == expected_nodes;
+  }
   fmt::print(
       "{:14} {:8.1f} MB  {} nodes, {} shells  split {:6.0f} MB/s  split and decoded {:6.0f} MB/s  ({:.2f} s of one "
       "core)\n",
@@ -92,15 +100,16 @@ bool measure(const fs::path& path, const char* label, std::size_t expected_nodes
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  const auto [json, quick] = kardan::bench::Options(argc, argv);
   const fs::path folder = fs::temp_directory_path() / fmt::format("kardan_reader_bench_{}", std::rand());
   fs::create_directories(folder);
-  constexpr int columns = 1200, rows = 1000;
+  const int columns = quick ? 300 : 1200, rows = 1000;
   bool ok = true;
   for (const bool free_format : {false, true}) {
     const fs::path path = folder / "plate.k";
     write_deck(path, columns, rows, free_format);
-    ok = measure(path, free_format ? "free format" : "fixed columns", std::size_t{columns} * rows) && ok;
+    ok = measure(path, free_format ? "free format" : "fixed columns", static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), json) && ok;
   }
   fs::remove_all(folder);
   return ok ? EXIT_SUCCESS : EXIT_FAILURE;

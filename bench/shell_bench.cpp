@@ -1,11 +1,11 @@
 // Speed of the shell kernel: nanoseconds per element-cycle of ElementSystem::internal_forces on a dished plate.
-// usage: kardan_bench_shell [elements a side = 320] [cycles = 40] [points = 3]
-#include <chrono>
+// usage: kardan_bench_shell [--json] [--quick]
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
+#include "kardan/base/isa.hpp"
 #include "kardan/elements/element_system.hpp"
+#include "options.hpp"
 
 namespace {
 
@@ -45,8 +45,9 @@ kardan::Model plate(int side, int points) {
 
 int main(int argc, char** argv) {
   using namespace kardan;
-  const int side = argc > 1 ? std::atoi(argv[1]) : 320, cycles = argc > 2 ? std::atoi(argv[2]) : 40;
-  const Model model = plate(side, argc > 3 ? std::atoi(argv[3]) : 3);
+  const auto [json, quick] = bench::Options(argc, argv);
+  const int side = quick ? 160 : 320, cycles = quick ? 40 : 200;
+  const Model model = plate(side, 3);
   State state;
   state.nodes.resize(model.nodes.size());
   state.nodes.x = model.nodes.x;
@@ -58,9 +59,15 @@ int main(int argc, char** argv) {
   }
   elements.internal_forces(model, state);
   state.clock.dt_previous = 5e-4;
-  const auto start = std::chrono::steady_clock::now();
+  const double start = bench::thread_seconds();
   for (int c = 0; c < cycles; ++c) elements.internal_forces(model, state);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("%d shells, %d cycles: %.1f ns per element-cycle\n", side * side, cycles,
-              1e9 * seconds / cycles / (double(side) * side));
+  const double seconds = bench::thread_seconds() - start;
+  const double ns = 1e9 * seconds / cycles / (static_cast<double>(side) * side);
+  if (json) {
+    std::printf("{\"case\":\"shell\",\"isa\":\"x86-64-v%d\",\"threads\":1,\"elements\":%d,\"ns_per_element_cycle\":%.1f}\n", kernel_level(),
+                side * side, ns);
+  } else {
+    std::printf("%d elastic shells, 3 points, x86-64-v%d, 1 thread, %d cycles: %.1f ns per element-cycle\n", side * side,
+                kernel_level(), cycles, ns);
+  }
 }

@@ -337,6 +337,8 @@ void RigidSystem::account(const Model&, State& state) {
     const double kinetic = 0.5 * info.mass * dot(r.velocity, r.velocity) +
                            0.5 * dot(r.angular_velocity, s.bodies.inertia_times(b, r.angular_velocity));
     state.energy.kinetic += kinetic;
+    const Vec3 step = r.force * state.clock.dt;
+    state.energy.resolution += 0.5 * dot(step, step) / info.mass;
     if (info.part != none) state.energy.part_kinetic[info.part] += kinetic;
   }
   for (std::size_t j = 0; j < s.joints.joints.size(); ++j)

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -133,6 +134,7 @@ struct EnergyLedger {
     part_kinetic.assign(parts, 0.0);
     part_internal.assign(parts, 0.0);
     part_hourglass.assign(parts, 0.0);
+    resolution = 0;
     kinetic = internal = spring_damper = hourglass = system_damping = sliding = joint = stopper = stonewall = 0;
   }
 
@@ -148,10 +150,13 @@ struct EnergyLedger {
     return kinetic + internal + spring_damper + hourglass + system_damping + sliding + joint + stopper + stonewall +
            eroded_kinetic + eroded_internal;
   }
-  /// GLSTAT's energy ratio total / (initial + external work); 1 where there is no energy at all.
+  /// What the applied forces would give the bodies in one step from rest: less than that is rounding, not energy.
+  double resolution = 0;
+
+  /// GLSTAT's energy ratio total / (initial + external work); 1 where there is no energy to speak of.
   double ratio() const {
     const double base = initial + external_work;
-    return base != 0 ? total() / base : 1.0;
+    return base != 0 && (std::abs(base) > resolution || std::abs(total()) > resolution) ? total() / base : 1.0;
   }
 };
 

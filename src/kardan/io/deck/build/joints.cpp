@@ -109,6 +109,16 @@ Joint::Failure read_failure(Builder& b, Block& block) {
   return failure;
 }
 
+/// Some decks end a constant-velocity joint with the parameter card of the coupled joints, which it does not have.
+void skip_parameter_card(Block& block) {
+  if (block.at_end()) return;
+  Block ahead = block;
+  const Card extra = ahead.next("card0");
+  if (!ahead.at_end() || !extra.blank("n2")) return;
+  extra.warning("n1", "a constant-velocity joint has no parameter card: the line is not used", "remove it");
+  block = ahead;
+}
+
 }  // namespace
 
 void build_joint(Builder& b, Block& block) {
@@ -131,6 +141,7 @@ void build_joint(Builder& b, Block& block) {
     else
       read_joint_nodes(b, card, row->second, joint);
     if (block.info->find_card("card1") != nullptr) read_joint_parameters(b, block.next("card1"), joint);
+    if (joint.kind == JointKind::constant_velocity) skip_parameter_card(block);
     if (block.has("LOCAL")) {
       const Card local = block.next("local");
       joint.local_system = b.integer_in(local, "lst", 0, 1);

@@ -1,0 +1,27 @@
+// The options every bench takes: --json (one object a row), --quick (smaller problem, fewer repetitions).
+#pragma once
+
+#include <cstring>
+#include <ctime>
+
+namespace kardan::bench {
+
+struct Options {
+  bool json = false, quick = false;
+
+  Options(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) {
+      json |= std::strcmp(argv[i], "--json") == 0;
+      quick |= std::strcmp(argv[i], "--quick") == 0;
+    }
+  }
+};
+
+/// Processor time of this thread: other processes on the machine do not count.
+inline double thread_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace kardan::bench
