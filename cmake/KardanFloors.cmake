@@ -1,5 +1,5 @@
 # kardan_floor(NAME dependencies...): the static library of one folder of src/kardan, made of every .cpp in it.
-# The dependencies are the folders it may include (DESIGN section 2; tests/include_graph checks the includes themselves).
+# The dependencies are the folders it may include (docs/architecture.md; the test house.includes checks the includes themselves).
 function(kardan_floor name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/kardan/${name}/*.cpp)
   if(sources)

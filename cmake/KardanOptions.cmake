@@ -1,6 +1,6 @@
 # Flags every target of Kardan is compiled with.
 #
-# Reproducibility (DESIGN section 1): results must be the same to the last bit whatever the number of threads, so no
+# Reproducibility: results must be the same to the last bit whatever the number of threads, so no
 # fast-math, and multiply-add contraction is fixed rather than left to the optimiser's mood.
 option(KARDAN_SANITIZE "build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 option(KARDAN_FUZZ "build the libFuzzer targets (clang only)" OFF)

@@ -1,4 +1,4 @@
-// Tiles (DESIGN section 1): a few hundred elements of one part, neighbours in space, with a compact list of nodes of their own.
+// Tiles: a few hundred elements of one part, neighbours in space, with a compact list of nodes of their own.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // The runtime bodies: constants, the kick-and-drift integrator of one body, and its response to impulses.
 //
-// Integrator (paper eqs. 1-13; DESIGN section 5). Symbols: J principal inertia, R(q) principal axes -> global,
+// Integrator (paper eqs. 1-13; docs/theory/rigid-bodies.md). Symbols: J principal inertia, R(q) principal axes -> global,
 // L angular momentum about the centre (global components), w angular velocity in the principal axes, h the step.
 //
 //   L(n+1/2) = L(n-1/2) + M(n) (h_before + h_after)/2                                      torque kick
