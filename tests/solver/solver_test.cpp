@@ -303,8 +303,9 @@ TEST(JointHolding, DeckAndCommandLine) {
   model.control.rigid.lmf = 1;
   EXPECT_THAT(joint_holding(model, {}).reason, HasSubstr("LMF = 1"));
   model.control.rigid.lmf = 0;
-  EXPECT_EQ(joint_holding(model, {}).holding, JointHolding::exact);
-  EXPECT_THAT(joint_holding(model, {}).reason, HasSubstr("--joints penalty"));
+  EXPECT_EQ(joint_holding(model, {}).holding, JointHolding::penalty);
+  EXPECT_THAT(joint_holding(model, {}).reason, HasSubstr("--joints exact"));
+  EXPECT_EQ(joint_holding(model, JointHolding::exact).holding, JointHolding::exact);
   EXPECT_EQ(joint_holding(model, JointHolding::penalty).holding, JointHolding::penalty);
 }
 

@@ -34,9 +34,8 @@ HoldingChoice joint_holding(const Model& model, std::optional<JointHolding> give
     case 1:
       return {JointHolding::exact, "joints: exact (*CONTROL_RIGID LMF = 1)"};
     case 0:
-      return {JointHolding::exact,
-              "joints: exact; LMF = 0 of *CONTROL_RIGID is LS-DYNA's default and cannot be told from a blank field: say "
-              "--joints penalty for penalty joints"};
+      return {JointHolding::penalty,
+              "joints: penalty (*CONTROL_RIGID LMF = 0); LMF = 1, a blank field or --joints exact hold them exactly"};
     default:
       return {JointHolding::exact, "joints: exact (Kardan's default)"};
   }

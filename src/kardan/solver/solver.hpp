@@ -35,9 +35,8 @@ struct SolverOptions {
   int threads = 1;
 };
 
-/// The holding a run uses and a sentence for the log that says why. *CONTROL_RIGID LMF = 1 means exact. LMF = 0 asks for
-/// penalty in LS-DYNA, but is also its default and what a blank field yields, so it cannot be told from "nothing said":
-/// exact unless the options say otherwise.
+/// The holding a run uses and a sentence for the log that says why. *CONTROL_RIGID LMF = 1 means exact, a
+/// written 0 penalty, as in LS-DYNA; a blank field or no card at all is Kardan's default, exact.
 struct HoldingChoice {
   JointHolding holding = JointHolding::exact;
   std::string reason;

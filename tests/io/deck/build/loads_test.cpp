@@ -98,6 +98,13 @@ TEST(BuildLoads, BodyAndPointLoads) {
   EXPECT_EQ(b.model.point_loads[3].nodes.size(), 2u);
 }
 
+TEST(BuildControl, HoldingOfJoints) {
+  // A written 0 asks for penalty joints; a blank field says nothing.
+  EXPECT_EQ(Built(two_blocks + "*CONTROL_RIGID\n0,1").model.control.rigid.lmf, 0);
+  EXPECT_EQ(Built(two_blocks + "*CONTROL_RIGID\n,1").model.control.rigid.lmf, -1);
+  EXPECT_EQ(Built(two_blocks).model.control.rigid.lmf, -1);
+}
+
 TEST(BuildControl, ControlsAndResults) {
   const Built b(two_blocks +
                 "*TITLE\n a mechanism "

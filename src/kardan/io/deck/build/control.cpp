@@ -45,7 +45,7 @@ void read_rigid(Builder& b, Block& block) {
   const Card card = block.next("card0");
   const Card more = block.next_optional("card1");
   RigidControl& r = b.model.control.rigid;
-  r.lmf = b.integer_in(card, "lmf", 0, 1);
+  r.lmf = card.blank("lmf") ? -1 : b.integer_in(card, "lmf", 0, 1);
   r.jntf = b.integer_in(card, "jntf", 0, 2);
   r.gjadstf = more.real("gjadstf", dimension::rotational_stiffness);
   r.gjadvsc = more.real("gjadvsc", dimension::rotational_damping);

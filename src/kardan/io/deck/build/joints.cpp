@@ -141,7 +141,7 @@ void build_joint(Builder& b, Block& block) {
     else
       read_joint_nodes(b, card, row->second, joint);
     if (block.info->find_card("card1") != nullptr) read_joint_parameters(b, block.next("card1"), joint);
-    if (joint.kind == JointKind::constant_velocity) skip_parameter_card(block);
+    if (joint.kind == JointKind::constant_velocity && !coordinates) skip_parameter_card(block);
     if (block.has("LOCAL")) {
       const Card local = block.next("local");
       joint.local_system = b.integer_in(local, "lst", 0, 1);
