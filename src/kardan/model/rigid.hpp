@@ -94,7 +94,7 @@ struct JointStiffness {
     CurveIndex friction_curve = none;  ///< FM < 0: limit against angle
     double stop_negative = 0;      ///< radians or length; 0 = no stop; angle at which the stop acts (sign as given)
     double stop_positive = 0;
-    double static_coefficient = 0, dynamic_coefficient = 0, decay = 0;  ///< FS, FD, DC on the joint's force
+    double static_coefficient = 0, dynamic_coefficient = 0;  ///< FS, FD on the joint's force
   };
   std::array<Coordinate, 3> coordinate{};
   CurveIndex moment_scale = none, damping_scale = none;  ///< flexion-torsion LCIDG, DLCIDG: factor on the alpha moment

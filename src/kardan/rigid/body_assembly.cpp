@@ -227,7 +227,7 @@ class Assembler {
       const std::vector<NodeIndex> own = claim(piece.nodes, body), extra = claim(piece.extra, body);
       if (m == lead || !frozen) {
         total.add(piece.given ? given(*piece.given) : lumped(own, rotary));
-        if (piece.extra_counts && !(m == lead && frozen && piece.given)) total.add(lumped(extra, rotary));
+        if (piece.extra_counts) total.add(lumped(extra, rotary));
       }
       for (const auto* list : {&own, &extra})
         result_.nodes.node.insert(result_.nodes.node.end(), list->begin(), list->end());
@@ -343,13 +343,29 @@ class Assembler {
                                     dofs >> 2 & 1, dofs >> 3 & 1, dofs >> 4 & 1, dofs >> 5 & 1), keyword);
   }
 
+  void constrain(const SinglePointConstraint& spc, NodeIndex node) {
+    const BodyIndex body = state_.nodes.body[node];
+    if (spc.birth <= 0 && spc.death >= 1e20) {
+      fix(body, spc.dofs, spc.frame, node, "*BOUNDARY_SPC");
+      return;
+    }
+    const std::uint8_t none_of_them = 0;
+    result_.timed_fixity.push_back({body,
+                                    spc.frame == none ? BodyFixity{spc.dofs, none_of_them, none}
+                                                      : BodyFixity{none_of_them, spc.dofs, spc.frame},
+                                    spc.birth, spc.death});
+    diagnostics_.notice(fmt::format("node {} belongs to rigid body {}: its constraint from t = {:.6g} to {:.6g} becomes a constraint "
+                                    "of the body", model_.nodes.id[node], state_.bodies.info[body].id, spc.birth, spc.death),
+                        "*BOUNDARY_SPC");
+  }
+
   void apply_single_point_constraints() {
     for (std::size_t n = 0; n < model_.nodes.size(); ++n)
       if (model_.nodes.constrained[n] && state_.nodes.body[n] != none)
         fix(state_.nodes.body[n], model_.nodes.constrained[n], none, static_cast<NodeIndex>(n), "*NODE");
     for (const SinglePointConstraint& spc : model_.constraints)
       for (NodeIndex n : spc.nodes)
-        if (state_.nodes.body[n] != none) fix(state_.nodes.body[n], spc.dofs, spc.frame, n, "*BOUNDARY_SPC");
+        if (state_.nodes.body[n] != none) constrain(spc, n);
   }
 
   const Model& model_;

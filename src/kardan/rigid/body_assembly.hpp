@@ -34,9 +34,17 @@ struct BodyFixity {
   Index frame = none;
 };
 
+/// A fixity that acts from birth to death (*BOUNDARY_SPC_…_BIRTH_DEATH on a node of a body).
+struct TimedFixity {
+  BodyIndex body = none;
+  BodyFixity fixity;
+  double birth = 0, death = 1e20;
+};
+
 struct BodyAssembly {
   BodyNodes nodes;
   std::vector<BodyFixity> fixity;        ///< by body
+  std::vector<TimedFixity> timed_fixity;
   std::vector<std::uint8_t> given_velocity;  ///< by body: initial velocity from *PART_INERTIA / _INERTIA
   std::vector<Vec3> initial_velocity, initial_omega;
 };

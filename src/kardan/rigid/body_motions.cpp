@@ -7,6 +7,7 @@
 #include <map>
 
 #include "kardan/rigid/joint_parts.hpp"
+#include "kardan/state/frames.hpp"
 
 namespace kardan {
 
@@ -31,13 +32,6 @@ Mat3 body_axes(const Model& model, const State& state, PartIndex part, BodyIndex
   return turned * at_start;
 }
 
-Vec3 vector_direction(const Model& model, const State& state, Index vector) {
-  const DirectionVector& v = model.vectors[vector];
-  if (v.nodes[0] != none) return normalized(state.nodes.x[v.nodes[1]] - state.nodes.x[v.nodes[0]]);
-  const Vec3 d = v.head - v.tail;
-  return normalized(v.frame == none ? d : model.frames[v.frame].axes * d);
-}
-
 }  // namespace
 
 std::vector<BodyConstraint> BodyMotions::initialise(const Model& model, State& state, const BodyAssembly& assembly,
@@ -53,11 +47,14 @@ std::vector<BodyConstraint> BodyMotions::initialise(const Model& model, State& s
     const BodyFixity& f = assembly.fixity[b];
     if (f.global == 0 && f.local == 0) continue;
     const std::size_t c = constraint_for(static_cast<BodyIndex>(b));
-    fixed_.push_back({c, f});
+    fixed_.push_back({c, f, 0.0, 1e300});
     constraints[c].fixed = (f.global | f.local) == dof_all && (f.global == dof_all || f.local == dof_all);
   }
+  for (const TimedFixity& timed : assembly.timed_fixity)
+    fixed_.push_back({constraint_for(timed.body), timed.fixity, timed.birth, timed.death});
   for (std::size_t m = 0; m < model.prescribed_motions.size(); ++m) {
     const PrescribedMotion& motion = model.prescribed_motions[m];
+    if (motion.vector != none) need_vector(model, state, motion.vector);
     std::vector<BodyIndex> targets;
     if (motion.body_part != none) {
       const BodyIndex body = state.bodies.of_part[motion.body_part];
@@ -151,6 +148,7 @@ void BodyMotions::prescribe(const Model& model, const State& state, BodySet& bod
     c.angular.clear();
   }
   for (const Fixed& fixed : fixed_) {
+    if (state.clock.time < fixed.birth || state.clock.time >= fixed.death) continue;
     BodyConstraint& c = bodies.constraints[fixed.constraint];
     for (int i = 0; i < 3; ++i) {
       if (fixed.fixity.global >> i & 1) c.linear.add(unit(i), 0.0);

@@ -41,6 +41,7 @@ class BodyMotions {
   struct Fixed {
     std::size_t constraint;
     BodyFixity fixity;
+    double birth, death;
   };
   struct Directed {           ///< a direction and the point its rotation is about
     Vec3 direction;

@@ -167,7 +167,7 @@ std::vector<int> ExactJoints::find_redundant_rows(JointSet& joints, const BodySe
 }
 
 std::vector<double> ExactJoints::shared_forces(const JointSet& joints, const BodySet& bodies) const {
-  if (std::none_of(joints.inactive.begin(), joints.inactive.end(), [](std::uint8_t r) { return r != 0; })) return force;
+  if (!joints.has_redundant_rows()) return force;
   // Least weighted norm of all x with A x = A force: (A + e D) x = A force, where the small e leaves the null space empty.
   constexpr double e = 1e-7;
   BlockCholesky matrix;

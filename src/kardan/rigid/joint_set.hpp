@@ -69,6 +69,7 @@ class JointSet {
   std::vector<double> times_matrix(const BodySet& bodies, const std::vector<double>& x) const;
   /// Marks the rows that depend on the others: (joint, row in the joint).
   void set_inactive(const std::vector<std::pair<int, int>>& joint_rows);
+  bool has_redundant_rows() const { return !inactive_rows_.empty(); }
   /// Takes the inactive rows out of an assembled matrix: their solution is what stands in the right-hand side.
   void deactivate_rows(BlockCholesky& matrix) const;
   /// The same pattern for `matrix`.

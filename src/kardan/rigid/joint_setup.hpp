@@ -26,6 +26,7 @@ void find_redundant_joints(const Model& model, const State& state, JointSet& set
 class JointFailure {
  public:
   void initialise(const Model& model, const JointSet& joints);
+  bool watches() const { return !watched_.empty(); }
   /// Marks joints that fail with the forces at t_n. @return model joints that failed in this call.
   const std::vector<Index>& check(const Model& model, const State& state, JointSet& joints, const BodySet& bodies,
                                   const std::vector<double>& force);

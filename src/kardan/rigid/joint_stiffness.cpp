@@ -178,19 +178,18 @@ JointStiffnesses::Kinematics JointStiffnesses::kinematics(const Model& model, co
 
 double JointStiffnesses::friction(const Model& model, const JointStiffness::Coordinate& c, const Sliding& now,
                                   double before) const {
-  double limit = c.friction_curve != none ? std::abs(model.curves[c.friction_curve].value(now.coordinate)) : std::abs(c.friction);
-  const bool by_joint_force = c.static_coefficient > 0 || c.dynamic_coefficient > 0;
-  if (by_joint_force)
-    limit += now.normal_force * (c.dynamic_coefficient +
-                                 (c.static_coefficient - c.dynamic_coefficient) * std::exp(-c.decay * std::abs(now.rate)));
-  if (limit == 0) return 0;
+  const double given = c.friction_curve != none ? std::abs(model.curves[c.friction_curve].value(now.coordinate)) : std::abs(c.friction);
+  // One coefficient alone serves at rest and in motion.
+  const double mu_rest = c.static_coefficient > 0 ? c.static_coefficient : c.dynamic_coefficient;
+  const double mu_motion = c.dynamic_coefficient > 0 ? c.dynamic_coefficient : c.static_coefficient;
+  const double at_rest = given + mu_rest * now.normal_force, in_motion = given + mu_motion * now.normal_force;
+  if (at_rest == 0) return 0;
+  double trial = now.stopping_force;
   if (c.elastic > 0) {
     // A joint that moves already at t = 0 starts with its spring drawn.
-    if (now.first) before = c.elastic * now.rate * now.dt;
-    return std::clamp(before + c.elastic * now.increment, -limit, limit);
+    trial = (now.first ? c.elastic * now.rate * now.dt : before) + c.elastic * now.increment;
   }
-  // Without a spring stiffness: the force that would bring the sliding to rest in this kick, no more than the limit.
-  return by_joint_force ? std::clamp(now.stopping_force, -limit, limit) : 0.0;
+  return std::abs(trial) <= at_rest ? trial : std::copysign(in_motion, trial);
 }
 
 double JointStiffnesses::stopping_force(const State& state, const BodySet& bodies, const Element& e, const Kinematics& k,

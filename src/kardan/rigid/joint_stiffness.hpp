@@ -5,7 +5,8 @@
 // Frames A and B (CIDA, CIDB) turn with their bodies. Each of up to three relative coordinates q with direction e gets
 //   m = curve(q) + damping_curve(q') + friction + stop,           moment (force) -m e on B and +m e on A,
 //   friction: an elastic-perfectly plastic spring, f += ES dq, |f| <= FM (or FM(q); or mu |N| with the joint's force N);
-//             mu |N| without ES: Coulomb's law without a spring, the force that stops the sliding but no more than mu |N|,
+//             mu |N| without ES: Coulomb's law without a spring, the force that stops the sliding. What would be more than
+//             FS |N| slips at FD |N|,
 //   stop:     ES (q - q_stop) beyond the stop.
 // Coordinates:
 //   generalized      rotations of B against A about the axes of A. JNTF = 0 (default): sum of the relative rotation's

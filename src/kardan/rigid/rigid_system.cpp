@@ -36,6 +36,7 @@ struct RigidSystem::Impl {
   std::vector<std::size_t> needed;        ///< into assembly.nodes: nodes kept current every cycle
   std::vector<BodyIndex> needed_body;
   bool needed_listed = false;
+  std::vector<double> acting;             ///< see acting_forces(); empty where the rows' forces are unique
   double reported_work = 0;               ///< of motions and motors, already in the ledger
 
   void list_needed(const State& state);
@@ -47,6 +48,9 @@ struct RigidSystem::Impl {
   void take_velocities(State& state);  ///< of bodies and needed nodes, at t_{n+1/2}
   void fill_body_reports(State& state) const;
   const std::vector<double>& row_forces() const { return holding == JointHolding::exact ? exact.force : penalty.force; }
+  /// Forces by which joints fail and rub: shared among redundant rows.
+  const std::vector<double>& acting_forces() const { return acting.empty() ? row_forces() : acting; }
+  void share_forces();
   const JointSeparation& separation() const { return holding == JointHolding::exact ? exact.largest : penalty.largest; }
 };
 
@@ -183,6 +187,13 @@ void RigidSystem::Impl::find_first_joint_forces(const Model& model, const State&
   for (std::size_t b = 0; b < bodies.size(); ++b) bodies.update_mobility(b);
   joints.linearise(state, bodies);
   exact.solve(model, state, joints, bodies, state.clock.kick(), state.clock.dt);
+  share_forces();
+}
+
+void RigidSystem::Impl::share_forces() {
+  const bool asked = failure.watches() || stiffness.asks_for_joint_forces();
+  if (!asked || holding != JointHolding::exact || !joints.has_redundant_rows()) return;
+  acting = exact.shared_forces(joints, bodies);
 }
 
 void RigidSystem::Impl::check_rotation(const State& state) const {
@@ -267,14 +278,15 @@ void RigidSystem::kick(const Model& model, State& state) {
   KARDAN_ASSERT(s.needed_listed);
   s.gather_forces(state);
   if (state.clock.cycle == 0 && s.stiffness.asks_for_joint_forces()) s.find_first_joint_forces(model, state);
-  s.stiffness.apply(model, state, s.bodies, s.joints, s.row_forces());
+  s.stiffness.apply(model, state, s.bodies, s.joints, s.acting_forces());
   s.set_trial(state);
   s.motions.prescribe(model, state, s.bodies, false);
   s.solve_joints(model, state);
   s.check_rotation(state);
   s.motions.account(state, s.bodies);
   s.motors.account(s.joints, s.row_forces(), state.clock);
-  for (Index j : s.failure.check(model, state, s.joints, s.bodies, s.row_forces()))
+  s.share_forces();
+  for (Index j : s.failure.check(model, state, s.joints, s.bodies, s.acting_forces()))
     spdlog::info("joint {} ({}) fails at t = {:.6g}", model.joints[j].id, to_string(model.joints[j].kind), state.clock.time);
   s.take_velocities(state);
 }
