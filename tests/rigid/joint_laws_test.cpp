@@ -194,6 +194,37 @@ TEST(Joints, DoorOnTwoHingesSharesItsWeight) {
   EXPECT_NEAR(run.state.joints[1].force.z, 0.5 * 20 * 9.81, 1e-4);  // rounding of the positions over h^2
 }
 
+TEST(Joints, PenaltyIsStableOnACrowdedBody) {
+  // Thirty joints of different kinds between a light hub and heavy spokes, another ring between the spokes, and a step at
+  // which only the springs limit: springs that were too stiff for their neighbours would blow up within a few steps.
+  Mechanism m;
+  const PartIndex hub = m.body(0.01, {0, 0, 0}, Mat3::diagonal({1e-5, 2e-5, 2.5e-5}), {}, {0, 0, 0.5});
+  const int spokes = 15;
+  std::vector<PartIndex> ring;
+  std::vector<Vec3> at;
+  for (int i = 0; i < spokes; ++i) {
+    const double angle = 2 * M_PI * i / spokes;
+    const Vec3 out{std::cos(angle), std::sin(angle), 0.1 * (i % 3)};
+    at.push_back(out);
+    ring.push_back(m.body(10.0, out, skew_inertia({1, 2, 2.5}), cross({0, 0, 0.5}, out), {0, 0, 0.5}));
+    const Vec3 p = 0.1 * out, q = p + Vec3{0, 0, 0.1};
+    m.joint(JointKind::spherical, hub, ring.back(), {p, p});
+    m.joint(JointKind::revolute, hub, ring.back(), {2.0 * p, 2.0 * p, q, q});
+  }
+  for (int i = 0; i < spokes; ++i) {
+    const Vec3 middle = 0.5 * (at[i] + at[(i + 1) % spokes]);
+    m.joint(JointKind::spherical, ring[i], ring[(i + 1) % spokes], {middle, middle});
+  }
+  Simulation run(m.model, 1e-3, JointHolding::penalty);
+  run.to(0.0);
+  const double e0 = run.kinetic_energy();
+  const Vec3 l0 = run.angular_momentum();
+  run.to(2.0);
+  EXPECT_NEAR(run.kinetic_energy() / e0, 1.0, 0.05);
+  EXPECT_LT(norm(run.angular_momentum() - l0), 1e-10 * norm(l0));
+  EXPECT_LT(run.system->largest_separation().distance, 0.1);
+}
+
 TEST(Joints, GearsTurnAgainstAndPulleysTurnWith) {
   for (const auto& [kind, sign] : {std::pair{JointKind::gears, -1.0}, {JointKind::pulley, 1.0}}) {
     Mechanism m;
