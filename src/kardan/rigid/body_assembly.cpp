@@ -30,8 +30,8 @@ struct Piece {
   const NodalRigidBody* nodal = nullptr;
   const GivenInertia* given = nullptr;
   std::vector<NodeIndex> nodes;        ///< of its elements (or of the set)
-  std::vector<NodeIndex> extra;        ///< *CONSTRAINED_EXTRA_NODES
-  bool extra_counts = true;            ///< IFLAG: the extra nodes' mass is added
+  std::vector<NodeIndex> extra;        ///< *CONSTRAINED_EXTRA_NODES whose mass is added
+  std::vector<NodeIndex> attached;     ///< *CONSTRAINED_EXTRA_NODES that leave a given inertia as it is (IFLAG = 0)
   int lead = -1;                       ///< piece it is merged into
   int merge_flag = 0;                  ///< IFLAG of the merges into this piece
 };
@@ -104,12 +104,11 @@ class Assembler {
                            "give the part *MAT_RIGID", "*CONSTRAINED_EXTRA_NODES");
         continue;
       }
-      auto& list = pieces_[piece].extra;
+      auto& list = pieces_[piece].given && extra.iflag == 0 ? pieces_[piece].attached : pieces_[piece].extra;
       list.insert(list.end(), extra.nodes.begin(), extra.nodes.end());
-      if (pieces_[piece].given && extra.iflag == 0) pieces_[piece].extra_counts = false;
     }
     for (Piece& piece : pieces_) {
-      for (auto* list : {&piece.nodes, &piece.extra}) {
+      for (auto* list : {&piece.nodes, &piece.extra, &piece.attached}) {
         std::sort(list->begin(), list->end());
         list->erase(std::unique(list->begin(), list->end()), list->end());
       }
@@ -206,7 +205,7 @@ class Assembler {
   /// A rigid part without elements, nodes or given inertia makes no body.
   bool empty(const std::vector<int>& members) const {
     for (int m : members)
-      if (pieces_[m].given || !pieces_[m].nodes.empty() || !pieces_[m].extra.empty()) return false;
+      if (pieces_[m].given || !pieces_[m].nodes.empty() || !pieces_[m].extra.empty() || !pieces_[m].attached.empty()) return false;
     diagnostics_.warning(fmt::format("{} has no elements and no nodes: ignored", describe(pieces_[members.front()])), {},
                          "*PART");
     return true;
@@ -224,12 +223,13 @@ class Assembler {
     const bool frozen = pieces_[lead].given && pieces_[lead].merge_flag == 0;
     for (int m : order) {
       const Piece& piece = pieces_[m];
-      const std::vector<NodeIndex> own = claim(piece.nodes, body), extra = claim(piece.extra, body);
+      const std::vector<NodeIndex> own = claim(piece.nodes, body), extra = claim(piece.extra, body),
+                                   attached = claim(piece.attached, body);
       if (m == lead || !frozen) {
         total.add(piece.given ? given(*piece.given) : lumped(own, rotary));
-        if (piece.extra_counts) total.add(lumped(extra, rotary));
+        total.add(lumped(extra, rotary));
       }
-      for (const auto* list : {&own, &extra})
+      for (const auto* list : {&own, &extra, &attached})
         result_.nodes.node.insert(result_.nodes.node.end(), list->begin(), list->end());
       if (piece.part != none) state_.bodies.of_part[piece.part] = body;
     }

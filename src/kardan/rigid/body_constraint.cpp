@@ -15,7 +15,6 @@ bool PrescribedDirections::add(const Vec3& direction, double value) {
     }
   const double rest = norm(e);
   if (count_ == 3 || rest < 1e-8) return false;
-  if (count_ == 0) particular_ = {};
   orthonormal_[count_] = e * (1.0 / rest);
   particular_ += orthonormal_[count_] * (s / rest);
   ++count_;

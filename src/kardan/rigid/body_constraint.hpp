@@ -18,7 +18,10 @@ namespace kardan {
 /// Up to three independent directions with prescribed values; the complement is kept orthonormal.
 class PrescribedDirections {
  public:
-  void clear() { count_ = 0; }
+  void clear() {
+    count_ = 0;
+    particular_ = {};
+  }
   int count() const { return count_; }
   /// Adds c . v = value. @return false if c depends on the directions already there (the first one given holds).
   bool add(const Vec3& direction, double value);

@@ -15,8 +15,9 @@ namespace {
 
 Vec3 unit(int axis) { return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0}; }
 
-/// Axes of the frame of a rigid part (LCO, else global axes) at t_n: they turn with the body.
-Mat3 body_axes(const Model& model, const State& state, PartIndex part, BodyIndex body) {
+/// Axes of the frame of a rigid part (LCO, else global axes): they turn with the body. Carried on from t_n by `ahead` with the
+/// body's angular velocity: to the middle of the step, where the velocity stands that they direct.
+Mat3 body_axes(const Model& model, const State& state, PartIndex part, BodyIndex body, double ahead) {
   Mat3 at_start = Mat3::identity();
   const Index material = part == none ? none : model.parts[part].material;
   if (material != none && model.materials[material].rigid()) {
@@ -28,9 +29,13 @@ Mat3 body_axes(const Model& model, const State& state, PartIndex part, BodyIndex
       at_start = Mat3::columns(x, cross(z, x), z);
     }
   }
-  const Mat3 turned = to_matrix(state.bodies.motion[body].orientation * conjugate(state.bodies.info[body].initial_orientation));
-  return turned * at_start;
+  const BodyMotion& motion = state.bodies.motion[body];
+  const Quat turned = from_rotation_vector(motion.angular_velocity * ahead) * motion.orientation *
+                      conjugate(state.bodies.info[body].initial_orientation);
+  return to_matrix(turned) * at_start;
 }
+
+bool alive(const PrescribedMotion& motion, const Clock& clock) { return clock.time >= motion.birth && clock.time < motion.death; }
 
 }  // namespace
 
@@ -93,7 +98,7 @@ std::vector<BodyConstraint> BodyMotions::initialise(const Model& model, State& s
 }
 
 BodyMotions::Directed BodyMotions::direction_of(const Model& model, const State& state, const PrescribedMotion& motion,
-                                                BodyIndex body) const {
+                                                BodyIndex body, double ahead) const {
   Directed d;
   const int dof = std::abs(motion.dof);
   d.only = motion.dof < 0;
@@ -108,7 +113,7 @@ BodyMotions::Directed BodyMotions::direction_of(const Model& model, const State&
   } else {
     d.rotation = dof >= 5;
     const int axis = d.rotation ? dof - 5 : dof - 1;
-    d.direction = motion.local ? body_axes(model, state, motion.body_part, body).column(static_cast<std::size_t>(axis))
+    d.direction = motion.local ? body_axes(model, state, motion.body_part, body, ahead).column(static_cast<std::size_t>(axis))
                                : unit(axis);
   }
   return d;
@@ -163,15 +168,19 @@ void BodyMotions::prescribe(const Model& model, const State& state, BodySet& bod
   }
   for (std::size_t k = 0; k < drivers_.size(); ++k) {
     const PrescribedMotion& motion = model.prescribed_motions[drivers_[k].motion];
-    if (state.clock.time < motion.birth || state.clock.time >= motion.death) continue;
+    if (!alive(motion, state.clock)) continue;
     BodyConstraint& c = bodies.constraints[drivers_[k].constraint];
-    const Directed d = direction_of(model, state, motion, c.body);
+    const double h = initial ? 0.0 : state.clock.dt;
+    const Directed d = direction_of(model, state, motion, c.body, 0.5 * h);
     const double value = speed(model, state, motion, d, c.body, k, initial);
     (d.rotation ? c.angular : c.linear).add(d.direction, value);
     directions_[k] = d.direction;
     if (d.offset_axis) {
-      // The centre circles about the axis through axis_point.
-      const Vec3 v = cross(d.direction * value, state.bodies.motion[c.body].center - d.axis_point);
+      // The centre circles about the axis through axis_point: v = w x (r + h v / 2), r the arm at t_n, turns it by the very
+      // Hughes-Winget step h w of the body and keeps its length.
+      const Vec3 w = d.direction * value;
+      const Vec3 arm_rate = cross(w, state.bodies.motion[c.body].center - d.axis_point);
+      const Vec3 v = (arm_rate + cross(w, arm_rate) * (0.5 * h)) / (1.0 + 0.25 * h * h * dot(w, w));
       for (int i = 0; i < 3; ++i)
         if (i != std::abs(motion.dof) - 9 || d.only) c.linear.add(unit(i), v[i]);
     } else if (d.only) {
@@ -184,14 +193,17 @@ void BodyMotions::prescribe(const Model& model, const State& state, BodySet& bod
   if (!initial) stoppers_.prescribe(model, state, bodies);
 }
 
-void BodyMotions::account(State& state, const BodySet& bodies) {
+void BodyMotions::account(const Model& model, State& state, const BodySet& bodies) {
   const Clock& clock = state.clock;
   work_before_ += work_of_kick_;
   work_of_kick_ = 0;
   std::fill(counted_.begin(), counted_.end(), std::uint8_t{0});
+  stoppers_.account(state, bodies);
   for (std::size_t k = 0; k < drivers_.size(); ++k) {
     const Driver& driver = drivers_[k];
     ReactionReport& report = state.reactions[driver.reaction];
+    report.force = report.moment = {};
+    if (!alive(model.prescribed_motions[driver.motion], clock)) continue;
     const auto b = static_cast<std::size_t>(bodies.constraints[driver.constraint].body);
     const BodyTrial& after = bodies.trial[b];
     const BodyMotion& before = state.bodies.motion[b];
@@ -206,7 +218,8 @@ void BodyMotions::account(State& state, const BodySet& bodies) {
     if (counted_[driver.constraint]) continue;  // several drivers of one body share its work
     counted_[driver.constraint] = 1;
     const double work = 0.5 * dot(impulse, before.velocity + after.constrained_velocity) +
-                        0.5 * dot(angular_impulse, before.angular_velocity + after.angular_velocity);
+                        0.5 * dot(angular_impulse, before.angular_velocity + after.angular_velocity) -
+                        stoppers_.work_on(driver.constraint);
     report.work += work;
     work_of_kick_ += work;
   }

@@ -22,8 +22,8 @@ class BodyMotions {
   /// Directions and values of the kick from t_{n-1/2} to t_{n+1/2}; with `initial`, the values at t = 0.
   void prescribe(const Model& model, const State& state, BodySet& bodies, bool initial);
 
-  /// Reactions at t_n after the kick, and their work.
-  void account(State& state, const BodySet& bodies);
+  /// Reactions at t_n after the kick, and their work; what the stoppers took in it.
+  void account(const Model& model, State& state, const BodySet& bodies);
   /// Work of the prescribed motions up to t_n.
   double work(const Clock& clock) const { return work_before_ + clock.share_before() * work_of_kick_; }
   /// Energy the stoppers have taken out.
@@ -50,7 +50,9 @@ class BodyMotions {
     bool offset_axis = false;
     Vec3 axis_point;
   };
-  Directed direction_of(const Model& model, const State& state, const PrescribedMotion& motion, BodyIndex body) const;
+  /// The direction `ahead` of t_n.
+  Directed direction_of(const Model& model, const State& state, const PrescribedMotion& motion, BodyIndex body,
+                        double ahead) const;
   double speed(const Model& model, const State& state, const PrescribedMotion& motion, const Directed& d, BodyIndex body,
                std::size_t driver, bool initial) const;
 

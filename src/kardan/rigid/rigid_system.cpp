@@ -283,7 +283,7 @@ void RigidSystem::kick(const Model& model, State& state) {
   s.motions.prescribe(model, state, s.bodies, false);
   s.solve_joints(model, state);
   s.check_rotation(state);
-  s.motions.account(state, s.bodies);
+  s.motions.account(model, state, s.bodies);
   s.motors.account(s.joints, s.row_forces(), state.clock);
   s.share_forces();
   for (Index j : s.failure.check(model, state, s.joints, s.bodies, s.acting_forces()))

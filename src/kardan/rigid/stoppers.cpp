@@ -59,24 +59,42 @@ Vec3 Stoppers::direction(const Model& model, const Stopper& stopper) const {
   return d;
 }
 
-void Stoppers::stop(const Stopper& stopper, const Stopped& stopped, const Vec3& along, double value, const State& state,
-                    BodySet& bodies) {
+void Stoppers::stop(const Stopper& stopper, const Stopped& stopped, const Vec3& along, double value, BodySet& bodies) {
   BodyConstraint& c = bodies.constraints[stopped.constraint];
-  const auto b = static_cast<std::size_t>(stopped.body);
   const bool rotation = stopper.deck->direction >= 5;
-  if (!(rotation ? c.angular : c.linear).add(along, value)) return;
-  if (rotation) {
-    const double inertia = dot(along, bodies.inertia_times(b, along));
-    const double before = dot(along, state.bodies.motion[b].angular_velocity);
-    energy_ += 0.5 * inertia * (before * before - value * value);
-  } else {
-    const double before = dot(along, bodies.trial[b].velocity);
-    energy_ += 0.5 * state.bodies.info[b].mass * (before * before - value * value);
+  if ((rotation ? c.angular : c.linear).add(along, value)) acting_.push_back({stopped, along, rotation, 0.0});
+}
+
+void Stoppers::account(const State& state, const BodySet& bodies) {
+  energy_before_ += energy_of_kick_;
+  energy_of_kick_ = energy_until_now_ = 0;
+  const double share = state.clock.share_before();
+  for (Acting& a : acting_) {
+    const auto b = static_cast<std::size_t>(a.stopped.body);
+    const BodyTrial& after = bodies.trial[b];
+    const BodyMotion& before = state.bodies.motion[b];
+    const Vec3 impulse = a.rotation ? bodies.angular_momentum_after(b, state.clock.dt) - after.angular_momentum
+                                    : (after.constrained_velocity - after.velocity) * state.bodies.info[b].mass;
+    const double along = dot(a.along, impulse);
+    const double from = dot(a.along, a.rotation ? before.angular_velocity : before.velocity);
+    const double to = dot(a.along, a.rotation ? after.angular_velocity : after.constrained_velocity);
+    const double now = from + share * (to - from);
+    a.work = 0.5 * along * (from + to);
+    energy_of_kick_ -= a.work;
+    energy_until_now_ -= 0.5 * share * along * (from + now);
   }
+}
+
+double Stoppers::work_on(std::size_t constraint) const {
+  double sum = 0;
+  for (const Acting& a : acting_)
+    if (a.stopped.constraint == constraint) sum += a.work;
+  return sum;
 }
 
 void Stoppers::prescribe(const Model& model, const State& state, BodySet& bodies) {
   const double t = state.clock.time, h = state.clock.dt;
+  acting_.clear();
   for (std::size_t k = 0; k < stoppers_.size(); ++k) {
     const Stopper& stopper = stoppers_[k];
     const RigidBodyStopper& deck = *stopper.deck;
@@ -92,28 +110,31 @@ void Stoppers::prescribe(const Model& model, const State& state, BodySet& bodies
 
     const auto meet = [&](const RigidBodyStopper::Limit& limit, double sign, const std::vector<Stopped>& followers) {
       if (limit.curve == none) return false;
-      const double bound = model.curves[limit.curve].value(t + h);
+      const double bound_now = model.curves[limit.curve].value(t), bound = model.curves[limit.curve].value(t + h);
       const double here = limit.displacement ? displacement : coordinate;
-      if (sign * (here + speed * h - bound) <= 0) return false;
-      stop(stopper, stopper.lead, along, (bound - here) / h, state, bodies);
+      // A body that is past its limit already (the stopper was born late) goes no further; it is not thrown back.
+      const double value = (bound - (sign * (here - bound_now) > 0 ? bound_now : here)) / h;
+      if (sign * (speed - value) <= 0) return false;
+      stop(stopper, stopper.lead, along, value, bodies);
       for (const Stopped& f : followers) {
         const auto fb = static_cast<std::size_t>(f.body);
         const double gap = std::abs(dot(along, state.bodies.motion[fb].center - state.bodies.motion[b].center));
-        if (f.closure == 0 || gap <= f.closure) stop(stopper, f, along, (bound - here) / h, state, bodies);
+        if (f.closure == 0 || gap <= f.closure) stop(stopper, f, along, value, bodies);
       }
       return true;
     };
     if (meet(deck.maximum, 1.0, stopper.followers_maximum) || meet(deck.minimum, -1.0, stopper.followers_minimum)) continue;
     if (deck.velocity != none) {
       const double bound = std::abs(model.curves[deck.velocity].value(t + 0.5 * h));
-      if (std::abs(speed) > bound) stop(stopper, stopper.lead, along, std::copysign(bound, speed), state, bodies);
+      if (std::abs(speed) > bound) stop(stopper, stopper.lead, along, std::copysign(bound, speed), bodies);
     }
   }
 }
 
 void Stoppers::register_state(State& state) {
   state.registry.add({"rigid.stopper_turned", "angle", "rigid.kick"}, turned_);
-  state.registry.add_value({"rigid.stopper_energy", "energy", "rigid.kick"}, energy_);
+  state.registry.add_value({"rigid.stopper_energy", "energy", "rigid.kick"}, energy_before_);
+  state.registry.add_value({"rigid.stopper_energy_of_kick", "energy", "rigid.kick"}, energy_of_kick_);
 }
 
 }  // namespace kardan

@@ -2,7 +2,8 @@
 //
 // A stopper acts where the forces of the kick alone would carry the body past its limit in the step to come: the velocity
 // along its direction is then prescribed such that the body meets the limit, and the body is free again as soon as the
-// forces pull it back. The kinetic energy that the stop takes is reported as stopper energy.
+// forces pull it back. What the impulse of the stop takes from the body, impulse x mean velocity of the kick, is the stopper
+// energy: nothing while a body rests on its stop.
 #pragma once
 
 #include <map>
@@ -23,7 +24,12 @@ class Stoppers {
   void bind(const std::map<BodyIndex, std::size_t>& constraint_of);
   /// Adds the directions of the stoppers that act in this kick; trial velocities hold the kick of the applied forces.
   void prescribe(const Model& model, const State& state, BodySet& bodies);
-  double energy() const { return energy_; }
+  /// After the kick: energy taken by the stops that acted in it.
+  void account(const State& state, const BodySet& bodies);
+  /// Energy taken up to t_n.
+  double energy() const { return energy_before_ + energy_until_now_; }
+  /// Work of the stops on one body in the last kick.
+  double work_on(std::size_t constraint) const;
   void register_state(State& state);
 
  private:
@@ -38,12 +44,18 @@ class Stoppers {
     std::vector<Stopped> followers_maximum, followers_minimum;
   };
   Vec3 direction(const Model& model, const Stopper& stopper) const;
-  void stop(const Stopper& stopper, const Stopped& stopped, const Vec3& direction, double value, const State& state,
-            BodySet& bodies);
+  struct Acting {              ///< a stop of the kick in progress
+    Stopped stopped;
+    Vec3 along;
+    bool rotation;
+    double work;               ///< on the body, in the whole kick
+  };
+  void stop(const Stopper& stopper, const Stopped& stopped, const Vec3& direction, double value, BodySet& bodies);
 
   std::vector<Stopper> stoppers_;
   std::vector<double> turned_;     ///< by stopper: rotation about its direction so far
-  double energy_ = 0;
+  std::vector<Acting> acting_;
+  double energy_before_ = 0, energy_of_kick_ = 0, energy_until_now_ = 0;  ///< up to t_{n-1/2}, in the kick, in it up to t_n
 };
 
 }  // namespace kardan
