@@ -152,10 +152,10 @@ JointStiffnesses::Kinematics JointStiffnesses::kinematics(const Model& model, co
       const Vec3 origin_a = a.center + bodies.rotation[e.a] * e.origin_a;
       const Vec3 origin_b = b.center + bodies.rotation[e.b] * e.origin_b;
       const Vec3 d = origin_b - origin_a;
-      k.point = origin_b;
-      // Velocity of B's origin against the point of A where it is.
-      const Vec3 v = b.velocity + cross(b.angular_velocity, origin_b - b.center) - a.velocity -
-                     cross(a.angular_velocity, origin_b - a.center);
+      // The axes turn with one body: the coordinates are those of the other's origin in it, and the forces act there.
+      k.point = deck.kind == JointStiffnessKind::translational ? origin_a : origin_b;
+      const Vec3 v = b.velocity + cross(b.angular_velocity, k.point - b.center) - a.velocity -
+                     cross(a.angular_velocity, k.point - a.center);
       if (deck.kind == JointStiffnessKind::translational) {
         for (std::size_t i = 0; i < 3; ++i) k.direction[i] = axes_b.column(i);
       } else {
@@ -223,7 +223,8 @@ void JointStiffnesses::apply(const Model& model, State& state, const BodySet& bo
     for (std::size_t i = 0; i < 3; ++i) {
       const JointStiffness::Coordinate& c = deck.coordinate[i];
       const bool only_scales = deck.kind == JointStiffnessKind::flexion_torsion && i == 1;
-      const double q = k.coordinate[i], dq = q - m.coordinate[i];
+      const bool first = state.clock.cycle == 0;
+      const double q = k.coordinate[i], dq = first ? 0.0 : q - m.coordinate[i];
       const double ratio = state.clock.dt_previous > 0 ? 0.5 : 0.0;
       const double rate = k.rate[i] + ratio * (k.rate[i] - m.rate_before[i]);
       const double bend = i == 0 ? k.bend : 1.0, bend_rate = i == 0 ? k.bend_rate : 1.0;
@@ -233,7 +234,7 @@ void JointStiffnesses::apply(const Model& model, State& state, const BodySet& bo
         if (c.damping != none) damping += bend_rate * model.curves[c.damping].value(rate);
         const double rubbing = e.slides[i] ? normal_force : 0.0;
         const double stopping = rubbing > 0 ? stopping_force(state, bodies, e, k, i) : 0.0;
-        const Sliding now{q, dq, rate, rubbing, stopping, state.clock.dt, state.clock.cycle == 0};
+        const Sliding now{q, dq, rate, rubbing, stopping, state.clock.dt, first};
         m.friction[i] = friction(model, c, now, m.friction[i]);
         elastic += stop_moment(c, q) + m.friction[i];
       }

@@ -38,7 +38,7 @@ class JointStiffnesses {
              const std::vector<double>& joint_force);
   /// Some friction depends on the force of a joint.
   bool asks_for_joint_forces() const;
-  /// Stored and dissipated energy so far.
+  /// Energy stored and dissipated since t = 0 (what a spring held then is not counted).
   double energy(const State& state) const;
   void register_state(State& state);
 
