@@ -361,7 +361,6 @@ TEST(JointForceFriction, BlockOnASlideSticksBelowMuAndSlipsAbove) {
     s.joint = joint;
     s.coordinate[0].static_coefficient = mu_static;
     s.coordinate[0].dynamic_coefficient = mu_dynamic;
-    s.coordinate[0].decay = 1e6;
     Simulation run(m.model, 1e-4);
     run.gravity = {0, 0, -g};
     run.load = [&](State& state) { state.bodies.force[1].x = pull * mass * g; };

@@ -191,6 +191,7 @@ void RigidSystem::Impl::find_first_joint_forces(const Model& model, const State&
 }
 
 void RigidSystem::Impl::share_forces() {
+  acting.clear();  // the redundancy may be gone
   const bool asked = failure.watches() || stiffness.asks_for_joint_forces();
   if (!asked || holding != JointHolding::exact || !joints.has_redundant_rows()) return;
   acting = exact.shared_forces(joints, bodies);
