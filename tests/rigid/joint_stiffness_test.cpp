@@ -375,6 +375,24 @@ TEST(JointForceFriction, BlockOnASlideSticksBelowMuAndSlipsAbove) {
   }
 }
 
+TEST(JointForceFriction, SpringThatSlipsStaysAtTheLowerLimit) {
+  // With ES the friction is a spring: drawn to FS |N| it slips, and goes on slipping at FD |N| without catching again.
+  const double mass = 2.0, g = 9.81, mu_static = 0.4, mu_dynamic = 0.2;
+  Mechanism m;
+  const Vec3 x{1, 0, 0}, y{0, 1, 0};
+  const PartIndex ground = m.ground(), slider = m.body(mass, {}, Mat3::identity(), {3, 0, 0});
+  const UserId joint = m.joint(JointKind::translational, ground, slider, {{}, {}, x, x, y, y}).id;
+  JointStiffness& s = stiffness(m, JointStiffnessKind::translational, ground, slider, frame(m, Mat3::identity()));
+  s.joint = joint;
+  s.coordinate[0].elastic = 1e6;
+  s.coordinate[0].static_coefficient = mu_static;
+  s.coordinate[0].dynamic_coefficient = mu_dynamic;
+  Simulation run(m.model, 1e-4);
+  run.gravity = {0, 0, -g};
+  run.to(1.0);
+  EXPECT_NEAR(run.report(slider).velocity.x, 3.0 - mu_dynamic * g, 1e-3);
+}
+
 TEST(JointStiffness, DeformablePartIsAnError) {
   Mechanism m;
   const PartIndex a = m.body(1.0, {}, Mat3::identity());

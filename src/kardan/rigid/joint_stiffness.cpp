@@ -177,7 +177,7 @@ JointStiffnesses::Kinematics JointStiffnesses::kinematics(const Model& model, co
 }
 
 double JointStiffnesses::friction(const Model& model, const JointStiffness::Coordinate& c, const Sliding& now,
-                                  double before) const {
+                                  double before, double& slips) const {
   const double given = c.friction_curve != none ? std::abs(model.curves[c.friction_curve].value(now.coordinate)) : std::abs(c.friction);
   // One coefficient alone serves at rest and in motion.
   const double mu_rest = c.static_coefficient > 0 ? c.static_coefficient : c.dynamic_coefficient;
@@ -189,7 +189,13 @@ double JointStiffnesses::friction(const Model& model, const JointStiffness::Coor
     // A joint that moves already at t = 0 starts with its spring drawn.
     trial = (now.first ? c.elastic * now.rate * now.dt : before) + c.elastic * now.increment;
   }
-  return std::abs(trial) <= at_rest ? trial : std::copysign(in_motion, trial);
+  // Once it slips it slips at the lower limit, until that is enough to hold it.
+  if (std::abs(trial) <= (slips != 0 ? in_motion : at_rest)) {
+    slips = 0.0;
+    return trial;
+  }
+  slips = 1.0;
+  return std::copysign(in_motion, trial);
 }
 
 double JointStiffnesses::stopping_force(const State& state, const BodySet& bodies, const Element& e, const Kinematics& k,
@@ -235,7 +241,7 @@ void JointStiffnesses::apply(const Model& model, State& state, const BodySet& bo
         const double rubbing = e.slides[i] ? normal_force : 0.0;
         const double stopping = rubbing > 0 ? stopping_force(state, bodies, e, k, i) : 0.0;
         const Sliding now{q, dq, rate, rubbing, stopping, state.clock.dt, first};
-        m.friction[i] = friction(model, c, now, m.friction[i]);
+        m.friction[i] = friction(model, c, now, m.friction[i], m.slips[i]);
         elastic += stop_moment(c, q) + m.friction[i];
       }
       const double moment = elastic + damping;

@@ -54,6 +54,7 @@ class JointStiffnesses {
   struct Memory {              ///< carried from cycle to cycle
     Quat relative;             ///< orientation of B in A at t_{n-1}
     std::array<double, 3> coordinate, rate_before, friction, moment;
+    std::array<double, 3> slips;  ///< 1 while the friction spring slips
   };
   struct Kinematics {          ///< at t_n
     std::array<double, 3> coordinate, rate;
@@ -69,7 +70,8 @@ class JointStiffnesses {
     double dt;
     bool first;                      ///< t = 0
   };
-  double friction(const Model& model, const JointStiffness::Coordinate& c, const Sliding& now, double before) const;
+  double friction(const Model& model, const JointStiffness::Coordinate& c, const Sliding& now, double before,
+                  double& slips) const;
   double stopping_force(const State& state, const BodySet& bodies, const Element& e, const Kinematics& k, std::size_t i) const;
 
   std::vector<Element> elements_;
