@@ -11,28 +11,9 @@ namespace kardan {
 namespace {
 
 using test::Bench;
+using test::mesh;
 
 constexpr double e_modulus = 210e9, density = 7800;
-
-/// nx x ny quadrilaterals over [0, lx] x [0, ly], moved by `warp`; every third split into triangles where `triangles`.
-template <class Warp>
-void mesh(Bench& b, PartIndex p, int nx, int ny, double lx, double ly, Warp warp, bool triangles = false) {
-  const auto base = static_cast<NodeIndex>(b.model.nodes.size());
-  for (int j = 0; j <= ny; ++j) {
-    for (int i = 0; i <= nx; ++i) b.node(warp(Vec3{lx * i / nx, ly * j / ny, 0}));
-  }
-  for (int j = 0; j < ny; ++j) {
-    for (int i = 0; i < nx; ++i) {
-      const NodeIndex n = base + j * (nx + 1) + i, m = n + nx + 1;
-      if (triangles && (i + j) % 3 == 0) {
-        b.shell(p, {n, n + 1, m + 1, m + 1});
-        b.shell(p, {n, m + 1, m, m});
-      } else {
-        b.shell(p, {n, n + 1, m + 1, m});
-      }
-    }
-  }
-}
 
 Vec3 distort(const Vec3& x) {
   return x + Vec3{0.13 * std::sin(2.1 * x.x + 1.3 * x.y), 0.11 * std::cos(1.7 * x.x - 2.3 * x.y), 0};

@@ -21,7 +21,7 @@ NodeIndex node(const Model& m, UserId id) {
 }
 
 PartIndex add_part(Model& m, UserId id, const char* title, ElementKind kind,
-                   std::variant<RigidMaterial, ElasticMaterial, SpringMaterial, UnsupportedMaterial> law) {
+                   decltype(Material::law) law) {
   Section s;
   s.kind = kind;
   s.shell.thickness = {1.5, 1.5, 1.5, 1.5};

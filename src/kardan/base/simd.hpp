@@ -57,6 +57,27 @@ struct Pack {
   }
   KARDAN_INLINE void store(double* p) const { std::memcpy(p, &v, sizeof v); }
 
+  /// Whether a lane is set.
+  KARDAN_INLINE static bool any(const Mask& mask) {
+#if defined(__AVX512F__)
+    return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;
+#elif defined(__AVX__)
+    return _mm256_movemask_pd((__m256d)mask) != 0;
+#elif defined(__x86_64__)
+    return _mm_movemask_pd((__m128d)mask) != 0;
+#else
+    std::int64_t bits = 0;
+    for (std::size_t l = 0; l < native_lanes; ++l) bits |= mask[l];
+    return bits != 0;
+#endif
+  }
+  /// base[index] of every lane.
+  KARDAN_INLINE static Pack gather(const double* base, const Mask& index) {
+    Pack r;
+    for (std::size_t l = 0; l < native_lanes; ++l) r.v[l] = base[index[l]];
+    return r;
+  }
+
   KARDAN_INLINE Pack& operator+=(const Pack& b) { v += b.v; return *this; }
   KARDAN_INLINE Pack& operator-=(const Pack& b) { v -= b.v; return *this; }
   KARDAN_INLINE Pack& operator*=(const Pack& b) { v *= b.v; return *this; }
@@ -71,6 +92,7 @@ struct Pack {
 };
 
 KARDAN_INLINE Pack select(const Pack::Mask& mask, const Pack& a, const Pack& b) { return Pack(mask ? a.v : b.v); }
+KARDAN_INLINE Pack abs(const Pack& a) { return Pack(Pack::Vector((Pack::Mask)a.v & 0x7fffffffffffffff)); }
 KARDAN_INLINE Pack max(const Pack& a, const Pack& b) { return select(a > b, a, b); }
 KARDAN_INLINE Pack min(const Pack& a, const Pack& b) { return select(a < b, a, b); }
 

@@ -7,16 +7,16 @@
 // Source: Hallquist, LS-DYNA Theory Manual 2006, Material Model 1 with the plane stress condition of shells.
 #pragma once
 
-namespace kardan {
+#include <cstddef>
 
-/// Stress or strain increment of a shell at one point: xx, yy, xy, yz, zx.
-template <class R>
-struct PlaneStress {
-  R xx, yy, xy, yz, zx;
-};
+#include "kardan/materials/plane_stress.hpp"
+
+namespace kardan {
 
 /// Constants of the law, ready for the kernel.
 struct ElasticPlaneStress {
+  static constexpr std::size_t history = 0;
+
   double c11 = 0, c12 = 0;   ///< E/(1-nu^2), nu E/(1-nu^2)
   double shear = 0;          ///< G
   double transverse = 0;     ///< k G
@@ -27,8 +27,10 @@ struct ElasticPlaneStress {
     return {plate, poissons_ratio * plate, g, shear_factor * g};
   }
 
+  void start(double*) const {}
+
   template <class R>
-  [[gnu::always_inline]] void update(PlaneStress<R>& s, const PlaneStress<R>& d) const {
+  [[gnu::always_inline]] void update(PlaneStress<R>& s, const PlaneStress<R>& d, double, double*) const {
     s.xx += c11 * d.xx + c12 * d.yy;
     s.yy += c12 * d.xx + c11 * d.yy;
     s.xy += shear * d.xy;

@@ -30,6 +30,17 @@ struct ElasticMaterial {
   double density = 0, youngs_modulus = 0, poissons_ratio = 0, da = 0, db = 0;
 };
 
+/// *MAT_PIECEWISE_LINEAR_PLASTICITY (024) without failure: yield stress over effective plastic strain from the curve, else from the
+/// points, else SIGY and ETAN; times the rate factor 1 + (rate/C)^(1/P) where C and P are positive (VP = 0).
+struct PiecewisePlasticMaterial {
+  double density = 0, youngs_modulus = 0, poissons_ratio = 0;
+  double yield_stress = 0, tangent_modulus = 0;     ///< SIGY, ETAN (slope of stress over total strain)
+  double rate_constant = 0, rate_exponent = 0;      ///< C [1/time], P; 0 = no rate effect
+  CurveIndex curve = none;                          ///< LCSS
+  int points = 0;                                   ///< of EPS, ES; 0 or 2 to 8
+  std::array<double, 8> strain{}, stress{};         ///< EPS ascending, ES
+};
+
 /// Springs and dampers of *ELEMENT_DISCRETE, S01 to S08.
 enum class SpringLaw : std::uint8_t {
   elastic_spring,            ///< S01: f = K d
@@ -55,7 +66,7 @@ struct UnsupportedMaterial {
 struct Material {
   UserId id = 0;
   std::string title;
-  std::variant<RigidMaterial, ElasticMaterial, SpringMaterial, UnsupportedMaterial> law;
+  std::variant<RigidMaterial, ElasticMaterial, PiecewisePlasticMaterial, SpringMaterial, UnsupportedMaterial> law;
 
   bool rigid() const { return std::holds_alternative<RigidMaterial>(law); }
 };

@@ -28,7 +28,7 @@
 // hourglass forces then do no work in a rigid rotation and have no resultant moment. (LS-DYNA leaves this term out.)
 #pragma once
 
-#include "kardan/base/simd.hpp"
+#include "kardan/base/simd_math.hpp"
 #include "kardan/base/vec3.hpp"
 #include "kardan/elements/shell/shell_kernel.hpp"
 
@@ -138,17 +138,18 @@ struct ShellResultants {
 };
 
 template <class R, class Law>
-KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, const Law& law, const ShellRates<R>& r, R dt, R half,
+KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, const Law& law, const ShellRates<R>& r, double step, R half,
                                                    double* history) {
+  const R dt(step);
   ShellResultants<R> t;
   for (int i = 0; i < p.points; ++i) {
-    double* h = history + static_cast<std::size_t>(i) * 5 * block_lanes;
+    double* h = history + static_cast<std::size_t>(i) * shell_point_values<Law> * block_lanes;
     PlaneStress<R> s{R::load(h), R::load(h + block_lanes), R::load(h + 2 * block_lanes), R::load(h + 3 * block_lanes),
                      R::load(h + 4 * block_lanes)};
     const PlaneStress<R> old = s;
     const R z = half * R(p.zeta[i]), w = half * R(p.weight[i]);
     const PlaneStress<R> d{(r.xx + z * r.kxx) * dt, (r.yy + z * r.kyy) * dt, (r.xy + z * r.kxy) * dt, r.yz * dt, r.zx * dt};
-    law.update(s, d);
+    law.update(s, d, step, h + 5 * block_lanes);
     t.work += R(0.5) * w * ((old.xx + s.xx) * d.xx + (old.yy + s.yy) * d.yy + (old.xy + s.xy) * d.xy + (old.yz + s.yz) * d.yz +
                             (old.zx + s.zx) * d.zx);
     s.xx.store(h);
@@ -230,7 +231,7 @@ KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, double s
   const R n12 = R::load(block.share[0] + first), n34 = R::load(block.share[1] + first);
   const R n[4] = {n12, n12, n34, n34};
   history += first;
-  double* kept = history + static_cast<std::size_t>(p.points) * 5 * block_lanes;
+  double* kept = history + static_cast<std::size_t>(p.points) * shell_point_values<Law> * block_lanes;
   const R thickness = R::load(kept + 5 * block_lanes);
 
   R g[4], hg[5];
@@ -239,7 +240,7 @@ KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, double s
     const ShellAxes<R> s = shell_axes(middle);
     hourglass_shape(s, g);
     const ShellRates<R> rates = shell_rates(s, g, v, w, n);
-    t = through_thickness(p, law, rates, dt, R(0.5) * thickness, history);
+    t = through_thickness(p, law, rates, step, R(0.5) * thickness, history);
     const R active = R::load(block.active + first);
     (active * t.work * s.area).store(block.internal + first);
     (active * hourglass_forces(p, s, rates, dt, thickness, kept, hg)).store(block.hourglass + first);
@@ -296,7 +297,7 @@ KARDAN_INLINE void shell_tile(ShellTileWork& work, const Law& law) {
   double internal[block_lanes] = {}, hourglass[block_lanes] = {};
   work.time_step = __builtin_inf();
   work.governing = work.broken = 0;
-  const std::size_t history_size = shell_history_size(p.points) * block_lanes;
+  const std::size_t history_size = shell_history_size(p.points, shell_point_values<Law>) * block_lanes;
   ShellBlock block;
   for (std::size_t first = 0, b = 0; first < work.elements; first += block_lanes, ++b) {
     const std::uint16_t* connectivity = work.connectivity + b * 4 * block_lanes;
@@ -324,6 +325,12 @@ KARDAN_INLINE void shell_tile(ShellTileWork& work, const Law& law) {
     work.internal_increment += internal[l];
     work.hourglass_increment += hourglass[l];
   }
+}
+
+/// One entry for every law of shells, in their order.
+template <class... Laws>
+constexpr ShellKernels<std::variant<Laws...>> kernels_of(const std::variant<Laws...>*) {
+  return {{[](ShellTileWork& work, const void* law) { shell_tile(work, *static_cast<const Laws*>(law)); }...}};
 }
 
 }  // namespace kardan::KARDAN_ISA_NAMESPACE

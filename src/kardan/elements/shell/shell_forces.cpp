@@ -8,12 +8,13 @@
 #include <string>
 
 #include "kardan/elements/lumped_mass.hpp"
+#include "kardan/elements/shell/shell_laws.hpp"
 
 namespace kardan {
 
 namespace {
 
-constexpr int belytschko_tsay = 2;
+constexpr int elform_belytschko_tsay = 2;
 
 /// Hourglass type and coefficients of a part: *HOURGLASS, else *CONTROL_HOURGLASS, else LS-DYNA's defaults for shells (type 1,
 /// QM = 0.1).
@@ -35,12 +36,13 @@ HourglassChoice hourglass_of(const Model& model, const Part& part) {
   return c;
 }
 
-ShellProperties properties_of(const Model& model, const Part& part) {
+ShellProperties properties_of(const Model& model, const Part& part, std::vector<double>& table) {
   const ShellSection& section = model.sections[part.section].shell;
-  const auto& elastic = std::get<ElasticMaterial>(model.materials[part.material].law);
-  const double e = elastic.youngs_modulus, nu = elastic.poissons_ratio, rho = elastic.density;
+  const Material& material = model.materials[part.material];
+  const auto [rho, e, nu] = bulk_properties(material);
+  const double transverse = section.shrf * e / (2 * (1 + nu));  // k G
   ShellProperties p;
-  p.law = ElasticPlaneStress::from(e, nu, section.shrf);
+  p.law = shell_law(model, material, section.shrf, table);
   p.points = section.nip > 0 ? section.nip : 2;
   gauss_rule(p.points, p.zeta, p.weight);
   for (int i = 0; i < p.points; ++i) p.zeta[i] -= section.nloc;  // NLOC = 1: the nodes lie on the top surface
@@ -48,11 +50,11 @@ ShellProperties properties_of(const Model& model, const Part& part) {
   p.side_lengths = model.control.time_step.isdo != 1;
   const HourglassChoice h = hourglass_of(model, part);
   p.stiffness_hourglass = h.type >= 4;
-  const double shear_ratio = p.law.transverse / e;  // k G / E
+  const double shear_ratio = transverse / e;  // k G / E
   if (p.stiffness_hourglass) {
     p.hourglass_membrane = h.membrane * e / 8;
     p.hourglass_bending = h.bending * e / 192;
-    p.hourglass_warping = h.warping * p.law.transverse / 12;
+    p.hourglass_warping = h.warping * transverse / 12;
   } else {
     const double viscous = rho * p.wave_speed / 4;
     p.hourglass_membrane = h.membrane * viscous;
@@ -107,14 +109,17 @@ void gauss_rule(int n, double* points, double* weights) {
 ShellForces::ShellForces(const Model& model, State& state, Diagnostics& diagnostics)
     : mesh_(cut(model)),
       slots_(mesh_, model.nodes.size(), 6),
-      kernel_(belytschko_tsay_elastic()),
+      kernels_(&belytschko_tsay()),
       properties_(model.parts.size()),
+      tables_(model.parts.size()),
+      start_(model.parts.size()),
       place_(model.shells.size(), none) {
   const std::size_t errors = diagnostics.error_count();
   PartIndex last = none;
   for (const Tile& tile : mesh_.tiles) {
     if (tile.part != last && computable(model, tile.part, diagnostics)) {
-      properties_[tile.part] = properties_of(model, model.parts[tile.part]);
+      properties_[tile.part] = properties_of(model, model.parts[tile.part], tables_[tile.part]);
+      start_[tile.part] = point_start(properties_[tile.part].law);
     }
     last = tile.part;
   }
@@ -122,7 +127,7 @@ ShellForces::ShellForces(const Model& model, State& state, Diagnostics& diagnost
   std::size_t size = 0;
   for (const Tile& tile : mesh_.tiles) {
     history_begin_.push_back(size);
-    size += tile.blocks * block_lanes * shell_history_size(properties_[tile.part].points);
+    size += tile.blocks * block_lanes * history_size(tile.part);
     tile_of_block_.resize(tile.first_block + tile.blocks, static_cast<Index>(history_begin_.size()) - 1);
   }
   history_.assign(size, 0.0);
@@ -131,12 +136,16 @@ ShellForces::ShellForces(const Model& model, State& state, Diagnostics& diagnost
   outcome_.resize(mesh_.tiles.size());
   for (std::size_t t = 0; t < mesh_.tiles.size(); ++t) {
     const Tile& tile = mesh_.tiles[t];
-    const std::size_t per_element = shell_history_size(properties_[tile.part].points);
+    const std::size_t per_element = history_size(tile.part);
+    const std::vector<double>& start = start_[tile.part];
+    const std::size_t points = static_cast<std::size_t>(properties_[tile.part].points);
     for (std::size_t i = 0; i < tile.blocks * block_lanes; ++i) {
       const Index shell = mesh_.element[tile.first_block * block_lanes + i];
       if (i < tile.elements) place_[shell] = static_cast<Index>(tile.first_block * block_lanes + i);
       const std::size_t block = i / block_lanes, lane = i % block_lanes;
-      history_[history_begin_[t] + (block * per_element + per_element - 1) * block_lanes + lane] = mean_thickness(model, shell);
+      double* own = history_.data() + history_begin_[t] + block * per_element * block_lanes + lane;
+      for (std::size_t k = 0; k < points * start.size(); ++k) own[k * block_lanes] = start[k % start.size()];
+      own[(per_element - 1) * block_lanes] = mean_thickness(model, shell);
     }
   }
   for (const NodeIndex n : slots_.nodes()) state.nodes.needed[n] = 1;
@@ -148,22 +157,15 @@ ShellForces::ShellForces(const Model& model, State& state, Diagnostics& diagnost
 bool ShellForces::computable(const Model& model, PartIndex p, Diagnostics& diagnostics) {
   const Part& part = model.parts[p];
   const Section& section = model.sections[part.section];
-  const Material& material = model.materials[part.material];
   const std::string name = "part " + std::to_string(part.id);
   bool good = true;
   const auto refuse = [&](const std::string& what, const std::string& cure, const char* keyword) {
     diagnostics.error(name + " has deformable shells of " + what + ", which this version does not compute", cure, keyword);
     good = false;
   };
-  if (!std::holds_alternative<ElasticMaterial>(material.law)) {
-    const auto* unsupported = std::get_if<UnsupportedMaterial>(&material.law);
-    refuse("material " + std::to_string(material.id) + (unsupported ? " (" + unsupported->keyword + ")" : ""),
-           "use *MAT_ELASTIC, or make the part rigid (*MAT_RIGID)", "*PART");
-  } else if (const auto& e = std::get<ElasticMaterial>(material.law); !(e.density > 0 && e.youngs_modulus > 0)) {
-    refuse("material " + std::to_string(material.id) + " without density or stiffness", "give RO and E", "*MAT_ELASTIC");
-  }
+  if (!check_shell_law(model, part, diagnostics)) good = false;
   if (section.kind != ElementKind::shell) return false;  // the lumped masses have complained
-  if (section.shell.elform != belytschko_tsay && section.shell.elform != 0) {
+  if (section.shell.elform != elform_belytschko_tsay && section.shell.elform != 0) {
     refuse("ELFORM = " + std::to_string(section.shell.elform) + " (section " + std::to_string(section.id) + ")",
            "use ELFORM = 2", "*SECTION_SHELL");
   }
@@ -205,7 +207,8 @@ void ShellForces::run_tile(std::size_t t, const State& state, Scratch& scratch) 
   work.history = history_.data() + history_begin_[t];
   work.force = slots_.slots(tile);
   work.nodes = tile.nodes;
-  kernel_(work);
+  const ShellLaw& law = work.properties->law;
+  (*kernels_)[law.index()](work, std::visit([](const auto& l) { return static_cast<const void*>(&l); }, law));
   internal_[t] += work.internal_increment;
   hourglass_[t] += work.hourglass_increment;
   outcome_[t] = {work.time_step, work.governing, work.broken};
@@ -257,9 +260,9 @@ bool ShellForces::stress(Index shell, int point, double (&s)[5]) const {
   const std::size_t block = static_cast<std::size_t>(place) / block_lanes, lane = static_cast<std::size_t>(place) % block_lanes;
   const auto t = static_cast<std::size_t>(tile_of_block_[block]);
   const Tile& tile = mesh_.tiles[t];
-  const std::size_t per_element = shell_history_size(properties_[tile.part].points);
+  const std::size_t per_element = history_size(tile.part), per_point = start_[tile.part].size();
   const double* history = history_.data() + history_begin_[t] + (block - tile.first_block) * per_element * block_lanes;
-  for (std::size_t c = 0; c < 5; ++c) s[c] = history[(static_cast<std::size_t>(point) * 5 + c) * block_lanes + lane];
+  for (std::size_t c = 0; c < 5; ++c) s[c] = history[(static_cast<std::size_t>(point) * per_point + c) * block_lanes + lane];
   return true;
 }
 

@@ -37,14 +37,18 @@ class ShellForces {
     std::size_t governing = 0, broken = 0;
   };
 
+  /// Values that an element of the part keeps.
+  std::size_t history_size(PartIndex part) const { return shell_history_size(properties_[part].points, start_[part].size()); }
   bool computable(const Model& model, PartIndex part, Diagnostics& diagnostics);
   void run_tile(std::size_t tile, const State& state, Scratch& scratch);
   [[noreturn]] void report_broken(const Model& model, const State& state, const Tile& tile, std::size_t element) const;
 
   TileMesh mesh_;
   SlotSum slots_;
-  ShellKernel kernel_;
+  const ShellKernels<ShellLaw>* kernels_;
   std::vector<ShellProperties> properties_;         ///< by part of the model
+  std::vector<std::vector<double>> tables_;         ///< by part: what its law points into
+  std::vector<std::vector<double>> start_;          ///< by part: values of a point at the start
   std::vector<double> history_;                     ///< blocks of all tiles
   std::vector<std::size_t> history_begin_;          ///< by tile
   std::vector<double> internal_, hourglass_;        ///< energies, by tile

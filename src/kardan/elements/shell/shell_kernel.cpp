@@ -5,19 +5,19 @@
 namespace kardan {
 
 namespace isa_v2 {
-void belytschko_tsay_elastic(ShellTileWork& work);
+extern const ShellKernels<ShellLaw> belytschko_tsay;
 }
 namespace isa_v3 {
-void belytschko_tsay_elastic(ShellTileWork& work);
+extern const ShellKernels<ShellLaw> belytschko_tsay;
 }
 namespace isa_v4 {
-void belytschko_tsay_elastic(ShellTileWork& work);
+extern const ShellKernels<ShellLaw> belytschko_tsay;
 }
 
-ShellKernel belytschko_tsay_elastic() {
-  static constexpr ShellKernel kernels[] = {isa_v2::belytschko_tsay_elastic, isa_v3::belytschko_tsay_elastic,
-                                            isa_v4::belytschko_tsay_elastic};
-  return kernels[kernel_level() - lowest_kernel_level];
+const ShellKernels<ShellLaw>& belytschko_tsay() {
+  static constexpr const ShellKernels<ShellLaw>* kernels[] = {&isa_v2::belytschko_tsay, &isa_v3::belytschko_tsay,
+                                                              &isa_v4::belytschko_tsay};
+  return *kernels[kernel_level() - lowest_kernel_level];
 }
 
 }  // namespace kardan

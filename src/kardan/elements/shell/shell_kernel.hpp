@@ -1,19 +1,26 @@
-// The shell kernel as the rest of the program sees it: plain pointers in, plain pointers out, one entry an instruction set.
+// The shell kernels as the rest of the program sees them: plain pointers in, plain pointers out, one entry for every instruction set
+// and every law.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <variant>
 
 #include "kardan/base/lanes.hpp"
 #include "kardan/materials/elastic_plane_stress.hpp"
+#include "kardan/materials/plastic_plane_stress.hpp"
 
 namespace kardan {
 
 inline constexpr std::size_t max_shell_points = 32;
 
+/// The laws of shells: the kernel is compiled for each of them.
+using ShellLaw = std::variant<ElasticPlaneStress, PlasticPlaneStress>;
+
 /// What all elements of a tile share.
 struct ShellProperties {
-  ElasticPlaneStress law;
+  ShellLaw law;
   int points = 2;                      ///< through the thickness
   double zeta[max_shell_points] = {};  ///< z / (h/2) of the points, measured from the surface of the nodes
   double weight[max_shell_points] = {};///< Gauss weights, sum 2
@@ -25,8 +32,14 @@ struct ShellProperties {
   bool side_lengths = true;            ///< time step by sides (ISDO 0), else by diagonals
 };
 
-/// Number of values that one element keeps: 5 stresses a point, 5 hourglass forces, thickness.
-constexpr std::size_t shell_history_size(int points) { return 5 * static_cast<std::size_t>(points) + 6; }
+/// Number of values that one point keeps: 5 stresses and the law's own.
+template <class Law>
+inline constexpr std::size_t shell_point_values = 5 + Law::history;
+
+/// Number of values that one element keeps: those of its points, 5 hourglass forces, thickness.
+constexpr std::size_t shell_history_size(int points, std::size_t point_values) {
+  return point_values * static_cast<std::size_t>(points) + 6;
+}
 
 /// One tile in one cycle. Local arrays are indexed by the tile's own nodes.
 struct ShellTileWork {
@@ -46,9 +59,14 @@ struct ShellTileWork {
   std::size_t broken = 0;         ///< out: 1 + an element without area or with a value that is not finite; 0 = none
 };
 
-using ShellKernel = void (*)(ShellTileWork&);
+/// A tile with the law that the entry is for.
+using ShellKernel = void (*)(ShellTileWork&, const void* law);
 
-/// The Belytschko-Tsay kernel with MAT_ELASTIC for kernel_level() (base/isa.hpp).
-ShellKernel belytschko_tsay_elastic();
+/// Entries in the order of the laws.
+template <class Laws>
+using ShellKernels = std::array<ShellKernel, std::variant_size_v<Laws>>;
+
+/// The Belytschko-Tsay kernels for kernel_level() (base/isa.hpp).
+const ShellKernels<ShellLaw>& belytschko_tsay();
 
 }  // namespace kardan

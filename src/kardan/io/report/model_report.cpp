@@ -24,6 +24,7 @@ std::size_t at(Index i) {
 struct LawName {
   std::string operator()(const RigidMaterial&) const { return "rigid"; }
   std::string operator()(const ElasticMaterial&) const { return "elastic"; }
+  std::string operator()(const PiecewisePlasticMaterial&) const { return "piecewise linear plastic"; }
   std::string operator()(const SpringMaterial& m) const {
     static constexpr std::array<const char*, 8> names{
         "elastic spring",   "viscous damper",           "elastoplastic spring", "nonlinear elastic spring",

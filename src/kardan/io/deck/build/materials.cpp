@@ -1,4 +1,5 @@
 // *MAT: what Kardan computes, and what it only weighs.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -91,19 +92,78 @@ RigidMaterial read_rigid(Builder& b, Block& block, const Card& card) {
   return m;
 }
 
-ElasticMaterial read_elastic(const Card& card) {
+ElasticMaterial read_elastic_constants(const Card& card) {
   ElasticMaterial m;
   m.density = card.real("ro", dimension::density);
   m.youngs_modulus = card.real("e", dimension::stress);
   m.poissons_ratio = card.real("pr");
-  m.da = card.real("da");
-  m.db = card.real("db");
   if (m.youngs_modulus <= 0)
     card.error("e", "found " + card.text("e") + ", expected a positive modulus", "give Young's modulus");
   if (m.poissons_ratio <= -1 || m.poissons_ratio >= 0.5) {
     card.error("pr", "found " + card.text("pr") + ", expected a Poisson's ratio between -1 and 0.5",
                "correct the value");
   }
+  return m;
+}
+
+ElasticMaterial read_elastic(const Card& card) {
+  ElasticMaterial m = read_elastic_constants(card);
+  m.da = card.real("da");
+  m.db = card.real("db");
+  return m;
+}
+
+void read_hardening_points(PiecewisePlasticMaterial& m, const Card& strains, const Card& stresses) {
+  const auto field = [](const char* name, int i) { return name + std::to_string(i + 1); };
+  for (int i = 0; i < 8; ++i) {
+    m.strain[i] = strains.real(field("eps", i));
+    m.stress[i] = stresses.real(field("es", i), dimension::stress);
+  }
+  int n = 1;
+  while (n < 8 && m.strain[n] > m.strain[n - 1]) ++n;
+  for (int i = n; i < 8; ++i) {
+    if (m.strain[i] == 0) continue;
+    strains.error(field("eps", i), "found " + strains.text(field("eps", i)) + " after " + strains.text(field("eps", n - 1)) +
+                                       ", expected plastic strains that ascend",
+                  "correct the strains, or leave the rest of them blank");
+    return;
+  }
+  if (n >= 2)
+    m.points = n;
+  else if (std::any_of(m.stress.begin(), m.stress.end(), [](double s) { return s != 0; }))
+    stresses.warning("es1", "has stresses, but EPS1 to EPS8 do not ascend: SIGY and ETAN are taken", "give EPS1 to EPS8, or a curve LCSS");
+}
+
+PiecewisePlasticMaterial read_piecewise_plastic(Builder& b, Block& block, const Card& card) {
+  const ElasticMaterial elastic = read_elastic_constants(card);
+  PiecewisePlasticMaterial m;
+  m.density = elastic.density;
+  m.youngs_modulus = elastic.youngs_modulus;
+  m.poissons_ratio = elastic.poissons_ratio;
+  m.yield_stress = card.real("sigy", dimension::stress);
+  m.tangent_modulus = card.real("etan", dimension::stress);
+  const double fail = card.real("fail");
+  if (fail < 0 || (fail > 0 && fail < 1e20)) {  // 1e21 is written by programs for "none"
+    b.unsupported(card, "fail", "failure (" + card.text("fail") + ") is not available", "set FAIL = 0 (no failure)");
+  }
+  b.refuse_nonzero(card, "tdel", "deletion of elements by their time step", "set TDEL = 0");
+
+  const Card rate = block.next_optional("card1");
+  b.refuse_nonzero(rate, "lcsr", "scaling of the yield stress by a curve of the strain rate", "use C and P");
+  b.refuse_nonzero(rate, "vp", "a formulation of the rate effect other than VP = 0", "set VP = 0");
+  m.rate_constant = rate.real("c", Dimension{0, 0, -1});
+  m.rate_exponent = rate.real("p");
+  if (m.rate_constant < 0 || m.rate_exponent < 0) {
+    rate.error("c", "found C = " + rate.text("c") + ", P = " + rate.text("p") + ", expected positive numbers",
+               "give C and P of Cowper and Symonds, or 0");
+  }
+  if (b.tables.find(rate.present() ? rate.id("lcss", IdKind::curve) : 0) != none)
+    b.unsupported(rate, "lcss", "a table of curves by strain rate is not available", "give one curve, and C and P for the rate");
+  else
+    m.curve = b.optional_curve(rate, "lcss");
+  const Card strains = block.next_optional("card2");
+  const Card stresses = block.next_optional("card3");
+  if (m.curve == none) read_hardening_points(m, strains, stresses);
   return m;
 }
 
@@ -164,7 +224,8 @@ UnsupportedMaterial read_unsupported(const Block& block, const Card& card) {
 void build_material(Builder& b, Block& block) {
   const auto spring = spring_layouts().find(block.keyword);
   const bool rigid = block.keyword == "MAT_RIGID", elastic = block.keyword == "MAT_ELASTIC";
-  const bool known = rigid || elastic || spring != spring_layouts().end();
+  const bool plastic = block.keyword == "MAT_PIECEWISE_LINEAR_PLASTICITY";
+  const bool known = plastic || rigid || elastic || spring != spring_layouts().end();
   do {  // an unknown law's cards are not known either: only the first material of the block is read
     Material material;
     if (block.has("TITLE")) material.title = block.next_title();
@@ -175,6 +236,8 @@ void build_material(Builder& b, Block& block) {
       material.law = read_rigid(b, block, card);
     else if (elastic)
       material.law = read_elastic(card);
+    else if (plastic)
+      material.law = read_piecewise_plastic(b, block, card);
     else if (known)
       material.law = read_spring(b, block, card, spring->second);
     else

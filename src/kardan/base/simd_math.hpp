@@ -1,0 +1,36 @@
+// Elementary functions on packs, of the basic operations only: the same bits with every width and on every processor.
+#pragma once
+
+#include "kardan/base/simd.hpp"
+
+namespace kardan::KARDAN_ISA_NAMESPACE {
+
+/// Natural logarithm; relative error below 1e-15 away from x = 1, absolute below 1e-16 next to it. x positive and normal.
+/// x = 2^k m with m in [1/sqrt 2, sqrt 2), log m = 2 artanh((m - 1)/(m + 1)) by its series.
+KARDAN_INLINE Pack log(const Pack& x) {
+  constexpr double to_integer = 6755399441055744.0;  // 1.5 2^52: the low bits of k + to_integer are those of the integer k
+  const Pack::Mask bits = (Pack::Mask)x.v, half = bits - Pack::Mask{} - 0x3fe6a09e667f3bcd;  // from the bits of 1/sqrt 2
+  const Pack::Mask exponent = half >> 52;
+  const Pack m(Pack::Vector(bits - (exponent << 52)));
+  const Pack k = Pack(Pack::Vector(exponent + 0x4338000000000000)) - Pack(to_integer);
+  const Pack s = (m - Pack(1.0)) / (m + Pack(1.0)), s2 = s * s;
+  Pack series(1.0 / 21.0);
+  for (int i = 19; i >= 3; i -= 2) series = series * s2 + Pack(1.0 / i);
+  constexpr double ln2_high = 0x1.62e42fefa3800p-1, ln2_low = 0x1.ef35793c76730p-45;
+  return k * Pack(ln2_high) + (k * Pack(ln2_low) + (s * s2 * series + s) * Pack(2.0));
+}
+
+/// Exponential function; relative error below 1e-15. |x| below 700.
+/// x = k log 2 + r with |r| <= log(2)/2, exp r by its series.
+KARDAN_INLINE Pack exp(const Pack& x) {
+  constexpr double to_integer = 6755399441055744.0;
+  constexpr double ln2_high = 0x1.62e42fefa3800p-1, ln2_low = 0x1.ef35793c76730p-45;
+  const Pack shifted = x * Pack(1.4426950408889634) + Pack(to_integer), k = shifted - Pack(to_integer);
+  const Pack r = (x - k * Pack(ln2_high)) - k * Pack(ln2_low);
+  Pack series(1.0);
+  for (int i = 13; i >= 1; --i) series = series * r * Pack(1.0 / i) + Pack(1.0);
+  const Pack power(Pack::Vector(((Pack::Mask)shifted.v + 1023) << 52));
+  return series * power;
+}
+
+}  // namespace kardan::KARDAN_ISA_NAMESPACE

@@ -1,0 +1,61 @@
+#include "io/deck/build/build_fixture.hpp"
+
+namespace kardan::deck {
+namespace {
+
+const PiecewisePlasticMaterial& plastic(const Built& d) { return std::get<PiecewisePlasticMaterial>(d.model.materials.at(0).law); }
+
+TEST(BuildMaterial, PiecewiseLinearPlasticityWithPointsAndRate) {
+  const Built d("*MAT_PIECEWISE_LINEAR_PLASTICITY\n5,7.8e-6,210,.3,.25,2.,1e21\n40,5\n0,.1,.2\n.25,.3,.33\n");
+  ASSERT_EQ(d.diagnostics.error_count(), 0u) << d.messages();
+  EXPECT_TRUE(d.model.unsupported.empty()) << d.messages();
+  const auto& m = plastic(d);
+  EXPECT_EQ(m.density, 7.8e-6);
+  EXPECT_EQ(m.youngs_modulus, 210);
+  EXPECT_EQ(m.poissons_ratio, 0.3);
+  EXPECT_EQ(m.yield_stress, 0.25);
+  EXPECT_EQ(m.tangent_modulus, 2);
+  EXPECT_EQ(m.rate_constant, 40);
+  EXPECT_EQ(m.rate_exponent, 5);
+  EXPECT_EQ(m.curve, none);
+  ASSERT_EQ(m.points, 3);
+  EXPECT_EQ(m.strain[2], 0.2);
+  EXPECT_EQ(m.stress[2], 0.33);
+}
+
+TEST(BuildMaterial, PiecewiseLinearPlasticityTakesTheCurveBeforeThePoints) {
+  const Built d("*DEFINE_CURVE\n9\n0,.2\n1,.4\n*MAT_024\n5,7.8e-6,210,.3\n0,0,9\n0,.1\n.25,.3\n*MAT_024\n6,7.8e-6,210,.3,.25\n");
+  ASSERT_EQ(d.diagnostics.error_count(), 0u) << d.messages();
+  EXPECT_EQ(plastic(d).curve, 0);
+  EXPECT_EQ(plastic(d).points, 0);
+  EXPECT_EQ(std::get<PiecewisePlasticMaterial>(d.model.materials.at(1).law).yield_stress, 0.25);
+}
+
+TEST(BuildMaterial, PiecewiseLinearPlasticityRefusesWhatItDoesNotCompute) {
+  const auto refused = [](const std::string& cards, const char* field) {
+    const Built d("*DEFINE_CURVE\n9\n0,.2\n1,.4\n*DEFINE_TABLE_2D\n8\n1.,9\n2.,9\n*MAT_024\n" + cards);
+    const Diagnostic* u = d.unsupported("not available");
+    ASSERT_NE(u, nullptr) << d.messages();
+    EXPECT_EQ(d.diagnostics.error_count(), 0u) << d.messages();
+    EXPECT_NE(to_string(*u).find(field), std::string::npos) << to_string(*u);
+    EXPECT_NE(to_string(*u).find("deck.k:"), std::string::npos) << to_string(*u);
+  };
+  refused("5,7.8e-6,210,.3,.25,0,.3\n", "FAIL");
+  refused("5,7.8e-6,210,.3,.25,0,-1\n", "FAIL");
+  refused("5,7.8e-6,210,.3,.25,0,0,1e-7\n", "TDEL");
+  refused("5,7.8e-6,210,.3,.25\n0,0,9,9\n", "LCSR");
+  refused("5,7.8e-6,210,.3,.25\n40,5,0,0,1.\n", "VP");
+  refused("5,7.8e-6,210,.3,.25\n0,0,8\n", "LCSS");
+}
+
+TEST(BuildMaterial, PiecewiseLinearPlasticityChecksItsPoints) {
+  const Built falling("*MAT_024\n5,7.8e-6,210,.3,.25\n\n0,.1,.05\n.2,.3,.4\n");
+  EXPECT_NE(falling.error("expected plastic strains that ascend"), nullptr) << falling.messages();
+  const Built unused("*MAT_024\n5,7.8e-6,210,.3,.25\n\n\n.2,.3,.4\n");
+  EXPECT_NE(unused.warning("SIGY and ETAN are taken"), nullptr) << unused.messages();
+  const Built unknown("*MAT_024\n5,7.8e-6,210,.3,.25\n0,0,77\n");
+  EXPECT_NE(unknown.error("77"), nullptr) << unknown.messages();
+}
+
+}  // namespace
+}  // namespace kardan::deck
