@@ -33,7 +33,7 @@ TEST(BuildMaterial, PiecewiseLinearPlasticityTakesTheCurveBeforeThePoints) {
 
 TEST(BuildMaterial, PiecewiseLinearPlasticityRefusesWhatItDoesNotCompute) {
   const auto refused = [](const std::string& cards, const char* field) {
-    const Built d("*DEFINE_CURVE\n9\n0,.2\n1,.4\n*DEFINE_TABLE_2D\n8\n1.,9\n2.,9\n*MAT_024\n" + cards);
+    const Built d("*DEFINE_CURVE\n9\n0,.2\n1,.4\n*DEFINE_TABLE\n8\n1.,9\n2.,9\n*MAT_024\n" + cards);
     const Diagnostic* u = d.unsupported("not available");
     ASSERT_NE(u, nullptr) << d.messages();
     EXPECT_EQ(d.diagnostics.error_count(), 0u) << d.messages();
