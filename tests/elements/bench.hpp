@@ -63,6 +63,13 @@ struct Bench {
     material.law = ElasticMaterial{density, e, nu, 0, 0};
     return part(section, material);
   }
+  PartIndex solid_part(double density, double e, double nu) {
+    Section section;
+    section.kind = ElementKind::solid;
+    Material material;
+    material.law = ElasticMaterial{density, e, nu, 0, 0};
+    return part(section, material);
+  }
   void spring(PartIndex p, NodeIndex a, NodeIndex b, Index orientation = none, double scale = 1, double offset = 0) {
     auto& d = model.discretes;
     d.id.push_back(500 + static_cast<UserId>(d.id.size()));
@@ -77,6 +84,11 @@ struct Bench {
     model.shells.id.push_back(1000 + static_cast<UserId>(model.shells.id.size()));
     model.shells.part.push_back(p);
     model.shells.nodes.push_back(nodes);
+  }
+  void solid(PartIndex p, std::array<NodeIndex, 8> nodes) {
+    model.solids.id.push_back(2000 + static_cast<UserId>(model.solids.id.size()));
+    model.solids.part.push_back(p);
+    model.solids.nodes.push_back(nodes);
   }
   void mass(NodeIndex n, double m, double inertia = 0) {
     PointInertia p;

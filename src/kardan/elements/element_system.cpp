@@ -11,6 +11,7 @@
 #include "kardan/elements/geometry.hpp"
 #include "kardan/elements/lumped_mass.hpp"
 #include "kardan/elements/shell/shell_forces.hpp"
+#include "kardan/elements/solid/solid_forces.hpp"
 
 namespace kardan {
 
@@ -49,16 +50,16 @@ void refuse_deformable(const Model& model, const Block& block, const char* keywo
 
 struct ElementSystem::Impl {
   Impl(const Model& model, State& state, Diagnostics& diagnostics)
-      : shells(model, state, diagnostics), discretes(model, state, diagnostics) {}
+      : shells(model, state, diagnostics), solids(model, state, diagnostics), discretes(model, state, diagnostics) {}
 
   ShellForces shells;
+  SolidForces solids;
   DiscreteForces discretes;
 };
 
 ElementSystem::ElementSystem(const Model& model, State& state, Diagnostics& diagnostics) {
   add_lumped_masses(model, state, diagnostics);
   impl_ = std::make_unique<Impl>(model, state, diagnostics);
-  refuse_deformable(model, model.solids, "*ELEMENT_SOLID", "solids", diagnostics);
   refuse_deformable(model, model.beams, "*ELEMENT_BEAM", "beams", diagnostics);
   state.discretes.assign(model.discretes.size(), DiscreteReport{});
   state.energy.part_internal.assign(model.parts.size(), 0.0);
@@ -71,14 +72,15 @@ ElementSystem& ElementSystem::operator=(ElementSystem&&) noexcept = default;
 
 void ElementSystem::internal_forces(const Model& model, State& state) {
   impl_->shells.internal_forces(model, state);
+  impl_->solids.internal_forces(model, state);
   impl_->discretes.internal_forces(model, state);
 }
 
 double ElementSystem::stable_time_step() const { return governing().time_step; }
 
-Governing ElementSystem::governing() const { 
-  const Governing &shell = impl_->shells.governing(), &discrete = impl_->discretes.governing();
-  return discrete.time_step < shell.time_step ? discrete : shell;
+Governing ElementSystem::governing() const {
+  return std::min({impl_->shells.governing(), impl_->solids.governing(), impl_->discretes.governing()},
+                  [](const Governing& a, const Governing& b) { return a.time_step < b.time_step; });
 }
 
 double ElementSystem::rigid_courant_time_step(const Model& model, const State& state) const {
@@ -114,6 +116,8 @@ void ElementSystem::account(const Model&, State& state) {
   std::fill(energy.part_internal.begin(), energy.part_internal.end(), 0.0);
   std::fill(energy.part_hourglass.begin(), energy.part_hourglass.end(), 0.0);
   impl_->shells.add_energies(energy.part_internal, energy.part_hourglass);
+  impl_->solids.add_energies(energy.part_internal, energy.part_hourglass);
+  impl_->solids.report(state.results.solid);
   energy.internal = std::accumulate(energy.part_internal.begin(), energy.part_internal.end(), 0.0);
   energy.hourglass = std::accumulate(energy.part_hourglass.begin(), energy.part_hourglass.end(), 0.0);
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "kardan/elements/hourglass.hpp"
 #include "kardan/elements/lumped_mass.hpp"
 #include "kardan/elements/shell/shell_laws.hpp"
 
@@ -15,26 +16,6 @@ namespace kardan {
 namespace {
 
 constexpr int elform_belytschko_tsay = 2;
-
-/// Hourglass type and coefficients of a part: *HOURGLASS, else *CONTROL_HOURGLASS, else LS-DYNA's defaults for shells (type 1,
-/// QM = 0.1).
-struct HourglassChoice {
-  int type = 1;
-  double membrane = 0.1, bending = 0.1, warping = 0.1;
-};
-
-HourglassChoice hourglass_of(const Model& model, const Part& part) {
-  HourglassChoice c;
-  const Control& control = model.control;
-  if (control.hourglass_type != 0) c.type = control.hourglass_type;
-  c.membrane = control.hourglass_qm != 0 ? control.hourglass_qm : 0.1;
-  const Hourglass* own = part.hourglass == none ? nullptr : &model.hourglasses[part.hourglass];
-  if (own && own->type != 0) c.type = own->type;
-  if (own && own->coefficient != 0) c.membrane = own->coefficient;
-  c.bending = own && own->bending != 0 ? own->bending : c.membrane;
-  c.warping = own && own->warping != 0 ? own->warping : c.membrane;
-  return c;
-}
 
 ShellProperties properties_of(const Model& model, const Part& part, std::vector<double>& table) {
   const ShellSection& section = model.sections[part.section].shell;
@@ -49,7 +30,7 @@ ShellProperties properties_of(const Model& model, const Part& part, std::vector<
   p.wave_speed = std::sqrt(e / (rho * (1 - nu * nu)));
   p.side_lengths = model.control.time_step.isdo != 1;
   const HourglassChoice h = hourglass_of(model, part);
-  p.stiffness_hourglass = h.type >= 4;
+  p.stiffness_hourglass = h.stiffness();
   const double shear_ratio = transverse / e;  // k G / E
   if (p.stiffness_hourglass) {
     p.hourglass_membrane = h.membrane * e / 8;
