@@ -130,6 +130,18 @@ Signal node_signal(const json& d, const Model& model) {
   refuse(d, "no such quantity of a node");
 }
 
+Signal solid_signal(const json& d, const Model& model, const State& state) {
+  const auto& ids = model.solids.id;
+  const auto found = std::find(ids.begin(), ids.end(), d.at("solid").get<UserId>());
+  if (found == ids.end()) refuse(d, "no such solid");
+  if (d.at("quantity") != "stress") refuse(d, "no such quantity of a solid");
+  if (state.results.solid.stress.empty()) refuse(d, "no solid of the model deforms");
+  return [e = static_cast<std::size_t>(found - ids.begin())](const State& s) {
+    const StressVector& stress = s.results.solid.stress[e];
+    return std::vector<double>(stress.begin(), stress.end());
+  };
+}
+
 template <class Item>
 std::size_t index_by_id(const json& d, const char* key, const std::vector<Item>& items) {
   const auto id = d.at(key).get<UserId>();
@@ -179,6 +191,7 @@ Signal energy_signal(const json& d) {
   const auto of = [](double EnergyLedger::*m) { return [m](const State& s) { return std::vector{s.energy.*m}; }; };
   if (name == "kinetic") return of(&EnergyLedger::kinetic);
   if (name == "internal") return of(&EnergyLedger::internal);
+  if (name == "hourglass") return of(&EnergyLedger::hourglass);
   if (name == "spring_damper") return of(&EnergyLedger::spring_damper);
   if (name == "joint") return of(&EnergyLedger::joint);
   if (name == "external_work") return of(&EnergyLedger::external_work);
@@ -235,6 +248,7 @@ Signal source_signal(const json& d, const Model& model, const State& state) {
   if (d.contains("body")) return body_signal(d, state);
   if (d.contains("relative")) return relative_signal(d, state);
   if (d.contains("node")) return node_signal(d, model);
+  if (d.contains("solid")) return solid_signal(d, model, state);
   if (d.contains("joint")) return joint_signal(d, model);
   if (d.contains("stiffness")) return stiffness_signal(d, model);
   if (d.contains("energy")) return energy_signal(d);

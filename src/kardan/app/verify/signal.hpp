@@ -28,10 +28,11 @@ using Signal = std::function<std::vector<double>(const State&)>;
 ///                                      displacement ("point": where it was common at t = 0), rotation (vector),
 ///                                      direction ("direction": of t = 0, carried by b)
 ///   {"node": id, "quantity": Q}        position, displacement, velocity, acceleration
+///   {"solid": id, "quantity": "stress"}  xx, yy, zz, xy, yz, zx, global axes; of deformable solids
 ///   {"joint": id, "quantity": Q}       force, moment (of body A on body B), separation, angular_separation, energy
 ///   {"joint": "all", "quantity": Q}    the largest of all joints; separation, angular_separation
 ///   {"stiffness": id, "quantity": Q}   coordinate, rate, elastic, damping, total (three components), energy
-///   {"energy": name}                   total, kinetic, internal, spring_damper, joint, external_work, ratio,
+///   {"energy": name}                   total, kinetic, internal, hourglass, spring_damper, joint, external_work, ratio,
 ///                                      balance (total - external work), initial_joint_loss
 ///   {"momentum": Q}                    linear, angular (of all bodies about the origin, half step)
 ///   {"sum": [signals]}                 componentwise
