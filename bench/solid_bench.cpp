@@ -20,7 +20,8 @@ kardan::Model block(int side) {
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {
         model.nodes.id.push_back((k * n + j) * n + i + 1);
-        model.nodes.x.push_back({5.0 * i + 0.3 * std::sin(0.7 * j), 5.0 * j + 0.2 * std::cos(0.3 * k), 5.0 * k + std::sin(0.1 * i)});
+        model.nodes.x.push_back(
+            {5.0 * i + 0.3 * std::sin(0.7 * j), 5.0 * j + 0.2 * std::cos(0.3 * k), 5.0 * k + std::sin(0.1 * i)});
         model.nodes.constrained.push_back(0);
       }
     }
@@ -80,12 +81,14 @@ int main(int argc, char** argv) {
     const char* name = hourglass == 2 ? "viscous" : "stiffness";
     const int elements = side * side * side;
     if (json) {
-      std::printf("{\"case\":\"solid\",\"hourglass\":\"%s\",\"isa\":\"x86-64-v%d\",\"threads\":1,\"elements\":%d,"
-                  "\"ns_per_element_cycle\":%.1f,\"history_bytes_per_element\":%zu}\n",
-                  name, kernel_level(), elements, ns, solid_history::count * sizeof(double));
+      std::printf(
+          "{\"case\":\"solid\",\"hourglass\":\"%s\",\"isa\":\"x86-64-v%d\",\"threads\":1,\"elements\":%d,"
+          "\"ns_per_element_cycle\":%.1f,\"history_bytes_per_element\":%zu}\n",
+          name, kernel_level(), elements, ns, solid_history::count * sizeof(double));
     } else {
-      std::printf("%d elastic hexahedra, %s hourglass control, x86-64-v%d, 1 thread, %d cycles: %.1f ns per element-cycle\n",
-                  elements, name, kernel_level(), cycles, ns);
+      std::printf(
+          "%d elastic hexahedra, %s hourglass control, x86-64-v%d, 1 thread, %d cycles: %.1f ns per element-cycle\n",
+          elements, name, kernel_level(), cycles, ns);
     }
   }
 }

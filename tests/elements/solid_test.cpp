@@ -15,8 +15,8 @@ using test::Bench;
 constexpr double e_modulus = 210e9, density = 7800;
 constexpr double lambda = 0.3 * e_modulus / (1.3 * 0.4), mu = e_modulus / 2.6;  // of nu = 0.3
 
-/// nx x ny x nz hexahedra over the box [0, nx] x [0, ny] x [0, nz], nodes moved by `warp`; with `degenerate`, every third cube is
-/// two wedges and every other third five tetrahedra.
+/// nx x ny x nz hexahedra over the box [0, nx] x [0, ny] x [0, nz], nodes moved by `warp`; with `degenerate`, every
+/// third cube is two wedges and every other third five tetrahedra.
 template <class Warp>
 void mesh(Bench& b, PartIndex p, int nx, int ny, int nz, Warp warp, bool degenerate = false) {
   const auto base = static_cast<NodeIndex>(b.model.nodes.size());
@@ -47,7 +47,9 @@ void mesh(Bench& b, PartIndex p, int nx, int ny, int nz, Warp warp, bool degener
   }
 }
 
-Vec3 identity(const Vec3& x) { return x; }
+Vec3 identity(const Vec3& x) {
+  return x;
+}
 
 Vec3 distort(const Vec3& x) {
   return x + Vec3{0.13 * std::sin(2.1 * x.x + 1.3 * x.y + x.z), 0.11 * std::cos(1.7 * x.x - 2.3 * x.y + 0.7 * x.z),
@@ -55,11 +57,17 @@ Vec3 distort(const Vec3& x) {
 }
 
 /// A velocity gradient with every component.
-Mat3 some_gradient() { return {{{{0.7, -0.2, 0.3}, {0.4, 1.1, -0.6}, {-0.1, 0.5, -0.9}}}}; }
+Mat3 some_gradient() {
+  return {{{{0.7, -0.2, 0.3}, {0.4, 1.1, -0.6}, {-0.1, 0.5, -0.9}}}};
+}
 
-Mat3 to_tensor(const StressVector& s) { return {{{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}}}; }
+Mat3 to_tensor(const StressVector& s) {
+  return {{{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}}}};
+}
 
-double size_of(const Mat3& a) { return std::sqrt(dot(a[0], a[0]) + dot(a[1], a[1]) + dot(a[2], a[2])); }
+double size_of(const Mat3& a) {
+  return std::sqrt(dot(a[0], a[0]) + dot(a[1], a[1]) + dot(a[2], a[2]));
+}
 
 /// Moves the nodes to `x` in one step of dt.
 void move_to(Bench& b, const std::vector<Vec3>& x, double dt) {
@@ -75,14 +83,15 @@ Mat3 strain_and_compute(Bench& b) {
   for (std::size_t n = 0; n < b.model.nodes.size(); ++n) b.state.nodes.v[n] = rate * b.model.nodes.x[n];
   b.forces();
   b.elements->account(b.model, b.state);
-  const Mat3 d = rate * inverse(Mat3::identity() - rate * (0.5 * dt)) * dt;  // on the geometry of the middle of the step
+  const Mat3 d =
+      rate * inverse(Mat3::identity() - rate * (0.5 * dt)) * dt;  // on the geometry of the middle of the step
   return Mat3::identity() * (lambda * trace(d)) + d * (2 * mu);
 }
 
 class SolidPatch : public ::testing::TestWithParam<int> {};
 
-/// Irons' patch: uniform stress and no force on inner nodes, with either hourglass control. (Bulk viscosity depends on the
-/// element's size and is out of it where the volume grows, as here.)
+/// Irons' patch: uniform stress and no force on inner nodes, with either hourglass control. (Bulk viscosity depends on
+/// the element's size and is out of it where the volume grows, as here.)
 TEST_P(SolidPatch, StressIsUniformInADistortedPatch) {
   Bench b;
   mesh(b, b.solid_part(density, e_modulus, 0.3), 3, 3, 3, distort);
@@ -108,7 +117,8 @@ INSTANTIATE_TEST_SUITE_P(ViscousAndStiffness, SolidPatch, ::testing::Values(1, 2
 TEST(Solid, WedgesAndTetrahedraPassThePatchTest) {
   Bench b;
   mesh(b, b.solid_part(density, e_modulus, 0.3), 3, 3, 3, distort, true);
-  // Tetrahedra and wedges of neighbouring cubes cut their common faces along different diagonals: only the stress is uniform.
+  // Tetrahedra and wedges of neighbouring cubes cut their common faces along different diagonals: only the stress is
+  // uniform.
   b.model.control.hourglass_type = 4;
   b.start();
   ASSERT_TRUE(b.diagnostics.ok());
@@ -131,7 +141,8 @@ TEST(Solid, OneTetrahedronHasTheVolumeAndStepOfATetrahedron) {
   b.elements->account(b.model, b.state);
   EXPECT_NEAR(b.state.energy.internal, 0.5 * (lambda + 2 * mu) * dt * dt / 3.0, 1e-9 * (lambda + 2 * mu) * dt * dt);
   const double altitude = 1.0 / std::sqrt(1.0 + 1.0 + 0.25);  // onto the face x/2 + y + z = 1
-  EXPECT_NEAR(b.elements->stable_time_step(), altitude / std::sqrt((lambda + 2 * mu) / density), 1e-9 * dt / 1e-12 * 1e-5);
+  EXPECT_NEAR(b.elements->stable_time_step(), altitude / std::sqrt((lambda + 2 * mu) / density),
+              1e-9 * dt / 1e-12 * 1e-5);
 }
 
 TEST(Solid, RigidRotationTurnsTheStressAndLeavesTheEnergy) {
@@ -198,7 +209,8 @@ TEST(Solid, UniaxialStretchFollowsTheLogarithmicStrain) {
   EXPECT_NEAR(coarse / fine, 4.0, 0.1);  // second order
 }
 
-/// Dienes 1979, Acta Mech. 32, 217-232: with Jaumann's rate simple shear g gives s_xy = mu sin g, s_xx = mu (1 - cos g).
+/// Dienes 1979, Acta Mech. 32, 217-232: with Jaumann's rate simple shear g gives s_xy = mu sin g, s_xx = mu (1 - cos
+/// g).
 TEST(Solid, SimpleShearHasTheStressOfJaumannsRate) {
   const auto error = [](int steps) {
     Bench b;
@@ -252,8 +264,9 @@ TEST(Solid, InternalForcesConserveLinearAndAngularMomentum) {
 
 TEST(Solid, StableStepIsVolumeOverLargestFaceAndWaveSpeed) {
   Bench b;
-  mesh(b, b.solid_part(density, e_modulus, 0.3), 2, 1, 1,
-       [](const Vec3& x) { return Vec3{x.x < 1.5 ? 0.8 * x.x : 1.5, 2 * x.y, 3 * x.z}; });
+  mesh(b, b.solid_part(density, e_modulus, 0.3), 2, 1, 1, [](const Vec3& x) {
+    return Vec3{x.x < 1.5 ? 0.8 * x.x : 1.5, 2 * x.y, 3 * x.z};
+  });
   b.start();
   b.forces();
   const double c = std::sqrt((lambda + 2 * mu) / density);
@@ -278,7 +291,8 @@ TEST(Solid, BulkViscosityIsThePressureOfLandshoffAndVonNeumannInCompressionOnly)
     const double c = std::sqrt((lambda + 2 * mu) / density), l = 2, d = std::abs(rate);
     const double pressure = rate < 0 ? density * l * (1.5 * l * d * d + 0.06 * c * d) : 0;
     // A face of 2 x 2, a quarter of it a node; the node at the origin is pushed outwards.
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(b.state.nodes.force[0][i], -pressure, 1e-9 * (pressure + 1)) << rate;
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(b.state.nodes.force[0][i], -pressure, 1e-9 * (pressure + 1)) << rate;
   }
 }
 
@@ -394,7 +408,9 @@ TEST(Solid, RefusesWhatIsNotComputedByName) {
   EXPECT_NE(message([](Model& m) { m.control.hourglass_type = 6; }).find("IHQ = 6"), std::string::npos);
   EXPECT_NE(message([](Model& m) { std::get<ElasticMaterial>(m.materials[0].law).poissons_ratio = 0.5; }).find("0.5"),
             std::string::npos);
-  EXPECT_NE(message([](Model& m) { m.materials[0].law = UnsupportedMaterial{"MAT_HONEYCOMB", 1, 1, 0}; }).find("MAT_HONEYCOMB"),
+  EXPECT_NE(message([](Model& m) {
+              m.materials[0].law = UnsupportedMaterial{"MAT_HONEYCOMB", 1, 1, 0};
+            }).find("MAT_HONEYCOMB"),
             std::string::npos);
 }
 

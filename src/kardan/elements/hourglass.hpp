@@ -5,8 +5,8 @@
 
 namespace kardan {
 
-/// Hourglass type and coefficients of a part: *HOURGLASS, else *CONTROL_HOURGLASS, else LS-DYNA's defaults (viscous, QM = 0.1);
-/// bulk viscosity: *HOURGLASS, else *CONTROL_BULK_VISCOSITY.
+/// Hourglass type and coefficients of a part: *HOURGLASS, else *CONTROL_HOURGLASS, else LS-DYNA's defaults (viscous, QM
+/// = 0.1); bulk viscosity: *HOURGLASS, else *CONTROL_BULK_VISCOSITY.
 struct HourglassChoice {
   int type = 1;
   double membrane = 0.1;                ///< QM
@@ -23,7 +23,8 @@ inline HourglassChoice hourglass_of(const Model& model, const Part& part) {
   c.membrane = control.hourglass_qm != 0 ? control.hourglass_qm : 0.1;
   c.q1 = control.bulk_q1;
   c.q2 = control.bulk_q2;
-  const Hourglass* own = part.hourglass == none ? nullptr : &model.hourglasses[static_cast<std::size_t>(part.hourglass)];
+  const Hourglass* own =
+      part.hourglass == none ? nullptr : &model.hourglasses[static_cast<std::size_t>(part.hourglass)];
   if (own && own->type != 0) c.type = own->type;
   if (own && own->coefficient != 0) c.membrane = own->coefficient;
   if (own && own->q1 != 0) c.q1 = own->q1;

@@ -1,28 +1,32 @@
 // The one-point hexahedron (ELFORM 1) with exact mean gradients, stress rate of Jaumann and hourglass control.
 // Included by translation units that are compiled for one instruction set each; see base/simd.hpp.
 //
-// Sources: Flanagan and Belytschko 1981, Int. J. Numer. Meth. Eng. 17, 679-706 (mean gradient, hourglass vectors and control);
-// Hughes and Winget 1980, Int. J. Numer. Meth. Eng. 15, 1862-1867 (rotation of a finite step); von Neumann and Richtmyer 1950,
-// J. Appl. Phys. 21, 232-237, and Landshoff 1955, LASL LA-1930 (bulk viscosity); Hallquist, LS-DYNA Theory Manual 2006, "Solid
-// elements" and "Time step calculations for solid elements".
+// Sources: Flanagan and Belytschko 1981, Int. J. Numer. Meth. Eng. 17, 679-706 (mean gradient, hourglass vectors and
+// control); Hughes and Winget 1980, Int. J. Numer. Meth. Eng. 15, 1862-1867 (rotation of a finite step); von Neumann
+// and Richtmyer 1950, J. Appl. Phys. 21, 232-237, and Landshoff 1955, LASL LA-1930 (bulk viscosity); Hallquist, LS-DYNA
+// Theory Manual 2006, "Solid elements" and "Time step calculations for solid elements".
 //
-// Everything is done on coefficients of the eight sign patterns of the nodes, not on the nodes. With natural coordinates r, s, t
-// = +-1 of node I a nodal field is a_I = a0 + a1 r + a2 s + a3 t + a4 rs + a5 st + a6 rt + a7 rst (24 additions there, 24 back).
-// With x1 ... x7 of the coordinates the mean gradient operator B_I = dV/dx_I = integral of grad N_I has the coefficients
+// Everything is done on coefficients of the eight sign patterns of the nodes, not on the nodes. With natural
+// coordinates r, s, t = +-1 of node I a nodal field is a_I = a0 + a1 r + a2 s + a3 t + a4 rs + a5 st + a6 rt + a7 rst
+// (24 additions there, 24 back). With x1 ... x7 of the coordinates the mean gradient operator B_I = dV/dx_I = integral
+// of grad N_I has the coefficients
 //   B1 = x2 x x3 + (x4 x x6)/3     B4 = (x2 x x5 - x1 x x6)/3
 //   B2 = x3 x x1 + (x5 x x4)/3     B5 = (x3 x x6 - x2 x x4)/3
 //   B3 = x1 x x2 + (x6 x x5)/3     B6 = (x1 x x4 - x3 x x5)/3,   B0 = B7 = 0   (x between vectors: cross product),
-// found by integrating the products of the trilinear map; V = (8/3) sum_a x_a.B_a, mean velocity gradient L = (8/V) sum v_a B_a^T,
-// forces of a stress F_a = sigma B_a. They are what Flanagan and Belytschko write out by nodes (their eq. 16 and appendix).
+// found by integrating the products of the trilinear map; V = (8/3) sum_a x_a.B_a, mean velocity gradient L = (8/V) sum
+// v_a B_a^T, forces of a stress F_a = sigma B_a. They are what Flanagan and Belytschko write out by nodes (their eq. 16
+// and appendix).
 //
-// Hourglass: modes a = 4 ... 7, h_a their sign patterns, g_a = h_a - (8/V) B.x_a, rates q_a = g_a.v = 8 (v_a - L x_a), forces
-// g_a Q_a, in coefficients F_a += Q_a and sigma -= (8/V) sum Q_a x_a^T:
+// Hourglass: modes a = 4 ... 7, h_a their sign patterns, g_a = h_a - (8/V) B.x_a, rates q_a = g_a.v = 8 (v_a - L x_a),
+// forces g_a Q_a, in coefficients F_a += Q_a and sigma -= (8/V) sum Q_a x_a^T:
 //   Q_a = QM rho c V^(2/3)/4 q_a                          (IHQ 1, 2, 3)
 //   dQ_a/dt = QM (lambda + 2 mu) (B:B/V)/16 q_a           (IHQ 4, 5), which turns with the material.
-// The vectors g are orthogonal to every linear field: constant strains and rotations are free of them, also at distorted elements.
+// The vectors g are orthogonal to every linear field: constant strains and rotations are free of them, also at
+// distorted elements.
 //
-// Strain increments are taken on the geometry of t_{n-1/2}, x_n - v dt/2, forces on that of t_n; the stress is turned by half the
-// step's rotation, updated, and turned by the other half, so a rigid rotation strains nothing and turns the stress exactly.
+// Strain increments are taken on the geometry of t_{n-1/2}, x_n - v dt/2, forces on that of t_n; the stress is turned
+// by half the step's rotation, updated, and turned by the other half, so a rigid rotation strains nothing and turns the
+// stress exactly.
 #pragma once
 
 #include "kardan/base/simd.hpp"
@@ -95,8 +99,8 @@ KARDAN_INLINE Mat3T<R> sum_outer(const Vec3T<R>* a, const Vec3T<R>* b, const R& 
   return m;
 }
 
-/// Rotation by half of the step's: with tan(angle/2) = |t| of Hughes and Winget, tan(angle/4) = |u|, u = t / (1 + sqrt(1 + t.t)),
-/// Q = I + 2 (U + U U)/(1 + u.u).
+/// Rotation by half of the step's: with tan(angle/2) = |t| of Hughes and Winget, tan(angle/4) = |u|, u = t / (1 +
+/// sqrt(1 + t.t)), Q = I + 2 (U + U U)/(1 + u.u).
 template <class R>
 KARDAN_INLINE Mat3T<R> half_rotation(const Mat3T<R>& l, const R& dt) {
   const R h = R(0.25) * dt;
@@ -106,7 +110,9 @@ KARDAN_INLINE Mat3T<R> half_rotation(const Mat3T<R>& l, const R& dt) {
   const Vec3T<R> w = u * f;
   const R xx = u.x * w.x, yy = u.y * w.y, zz = u.z * w.z, xy = u.x * w.y, yz = u.y * w.z, zx = u.z * w.x;
   const R one(1.0);
-  return {{{{one - yy - zz, xy - w.z, zx + w.y}, {xy + w.z, one - xx - zz, yz - w.x}, {zx - w.y, yz + w.x, one - xx - yy}}}};
+  return {{{{one - yy - zz, xy - w.z, zx + w.y},
+            {xy + w.z, one - xx - zz, yz - w.x},
+            {zx - w.y, yz + w.x, one - xx - yy}}}};
 }
 
 /// Q s Q^T.
@@ -123,7 +129,8 @@ KARDAN_INLINE R contraction(const SymmetricTensor<R>& a, const SymmetricTensor<R
   return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + shear + shear;
 }
 
-/// V^(1/3) by two steps of Newton's method from the root of the cycle before; the volume of an element changes little a cycle.
+/// V^(1/3) by two steps of Newton's method from the root of the cycle before; the volume of an element changes little a
+/// cycle.
 template <class R>
 KARDAN_INLINE R cube_root(const R& v, const R& before) {
   R l = before;
@@ -160,8 +167,12 @@ struct SolidStresses {
 
 template <class R>
 KARDAN_INLINE SymmetricTensor<R> load_tensor(const double* h) {
-  return {R::load(h), R::load(h + block_lanes), R::load(h + 2 * block_lanes), R::load(h + 3 * block_lanes),
-          R::load(h + 4 * block_lanes), R::load(h + 5 * block_lanes)};
+  return {R::load(h),
+          R::load(h + block_lanes),
+          R::load(h + 2 * block_lanes),
+          R::load(h + 3 * block_lanes),
+          R::load(h + 4 * block_lanes),
+          R::load(h + 5 * block_lanes)};
 }
 template <class R>
 KARDAN_INLINE void store_tensor(const SymmetricTensor<R>& s, double* h) {
@@ -175,9 +186,9 @@ KARDAN_INLINE void store_tensor(const SymmetricTensor<R>& s, double* h) {
 
 /// Forces of the hourglass modes at t_n on the geometry of the middle of the step; returns their work over the step.
 template <class R>
-KARDAN_INLINE R hourglass_forces(const SolidProperties& p, const Modes<R>& x, const Modes<R>& v, const MeanGradient<R>& g,
-                                 const Mat3T<R>& l, const Mat3T<R>& q, const R& dt, const R& area, double* history,
-                                 Vec3T<R> (&force)[4]) {
+KARDAN_INLINE R hourglass_forces(const SolidProperties& p, const Modes<R>& x, const Modes<R>& v,
+                                 const MeanGradient<R>& g, const Mat3T<R>& l, const Mat3T<R>& q, const R& dt,
+                                 const R& area, double* history, Vec3T<R> (&force)[4]) {
   R factor = R(p.hourglass) * area;
   if (p.stiffness_hourglass) {
     R bb{};
@@ -234,8 +245,12 @@ KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, double s
     const Mat3T<R> l = sum_outer<6>(v.a, g.b, R(8.0) / g.volume);
     const Mat3T<R> q = half_rotation(l, dt);
     const R half(0.5);
-    const SymmetricTensor<R> d{l[0].x * dt, l[1].y * dt, l[2].z * dt, half * (l[0].y + l[1].x) * dt,
-                               half * (l[1].z + l[2].y) * dt, half * (l[2].x + l[0].z) * dt};
+    const SymmetricTensor<R> d{l[0].x * dt,
+                               l[1].y * dt,
+                               l[2].z * dt,
+                               half * (l[0].y + l[1].x) * dt,
+                               half * (l[1].z + l[2].y) * dt,
+                               half * (l[2].x + l[0].z) * dt};
     divergence = l[0].x + l[1].y + l[2].z;
     double* h = history + kept::stress * block_lanes;
     stress = turned(q, load_tensor<R>(h));
@@ -251,8 +266,8 @@ KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, double s
     const R size = cube_root(now.volume, R::load(kept_size)), squeeze = max(-divergence, zero);
     size.store(kept_size);
     double* viscosity = history + kept::viscosity * block_lanes;
-    const R pressure = R(p.density) * original / now.volume * size * squeeze *
-                       (R(p.q1) * size * squeeze + R(p.q2) * R(p.wave_speed));
+    const R pressure =
+        R(p.density) * original / now.volume * size * squeeze * (R(p.q1) * size * squeeze + R(p.q2) * R(p.wave_speed));
     work -= (R::load(viscosity) + pressure) * divergence * dt;
     pressure.store(viscosity);
     stress.xx -= pressure;

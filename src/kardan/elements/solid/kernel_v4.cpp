@@ -4,6 +4,8 @@
 
 namespace kardan::isa_v4 {
 
-void hexahedron_elastic(SolidTileWork& work) { solid_tile(work, work.properties->law); }
+void hexahedron_elastic(SolidTileWork& work) {
+  solid_tile(work, work.properties->law);
+}
 
 }  // namespace kardan::isa_v4

@@ -26,12 +26,14 @@ SolidProperties properties_of(const Model& model, const Part& part) {
   p.q1 = h.q1;
   p.q2 = h.q2;
   p.stiffness_hourglass = h.stiffness();
-  p.hourglass = p.stiffness_hourglass ? h.membrane * p.law.longitudinal() / 16 : h.membrane * p.density * p.wave_speed / 4;
+  p.hourglass =
+      p.stiffness_hourglass ? h.membrane * p.law.longitudinal() / 16 : h.membrane * p.density * p.wave_speed / 4;
   return p;
 }
 
-/// Nodes of a solid as the trilinear map needs them. A tetrahedron N1 N2 N3 N4 N4 N4 N4 N4 would be half of itself (its face of
-/// four nodes is not flat); N1 N2 N3 N3 N4 N4 N4 N4 is all of it, with the constant gradients of the tetrahedron.
+/// Nodes of a solid as the trilinear map needs them. A tetrahedron N1 N2 N3 N4 N4 N4 N4 N4 would be half of itself (its
+/// face of four nodes is not flat); N1 N2 N3 N3 N4 N4 N4 N4 is all of it, with the constant gradients of the
+/// tetrahedron.
 std::array<NodeIndex, 8> mapped_nodes(const std::array<NodeIndex, 8>& nodes) {
   if (distinct_nodes(nodes) != 4) return nodes;
   std::array<NodeIndex, 4> corner{};
@@ -61,7 +63,10 @@ TileMesh cut(const Model& model) {
 }  // namespace
 
 SolidForces::SolidForces(const Model& model, State& state, Diagnostics& diagnostics)
-    : mesh_(cut(model)), slots_(mesh_, model.nodes.size(), 3), kernel_(hexahedron_elastic()), properties_(model.parts.size()) {
+    : mesh_(cut(model)),
+      slots_(mesh_, model.nodes.size(), 3),
+      kernel_(hexahedron_elastic()),
+      properties_(model.parts.size()) {
   const std::size_t errors = diagnostics.error_count();
   PartIndex last = none;
   for (const Tile& tile : mesh_.tiles) {
@@ -100,7 +105,8 @@ bool SolidForces::computable(const Model& model, PartIndex p, Diagnostics& diagn
   bool good = true;
   const auto refuse = [&](const std::string& what, const std::string& cure, const char* keyword) {
     diagnostics.error("part " + std::to_string(part.id) + " has deformable solids of " + what +
-                          ", which this version does not compute", cure, keyword);
+                          ", which this version does not compute",
+                      cure, keyword);
     good = false;
   };
   if (!std::holds_alternative<ElasticMaterial>(material.law)) {
@@ -109,8 +115,9 @@ bool SolidForces::computable(const Model& model, PartIndex p, Diagnostics& diagn
            "use *MAT_ELASTIC, or make the part rigid (*MAT_RIGID)", "*PART");
   } else if (const auto& e = std::get<ElasticMaterial>(material.law);
              !(e.density > 0 && e.youngs_modulus > 0 && e.poissons_ratio > -1 && e.poissons_ratio < 0.5)) {
-    refuse("material " + std::to_string(material.id) + " with density " + std::to_string(e.density) + ", Young's modulus " +
-               std::to_string(e.youngs_modulus) + " and Poisson's ratio " + std::to_string(e.poissons_ratio),
+    refuse("material " + std::to_string(material.id) + " with density " + std::to_string(e.density) +
+               ", Young's modulus " + std::to_string(e.youngs_modulus) + " and Poisson's ratio " +
+               std::to_string(e.poissons_ratio),
            "give RO > 0, E > 0 and -1 < PR < 0.5", "*MAT_ELASTIC");
   }
   if (section.kind != ElementKind::solid) return false;  // the lumped masses have complained
@@ -119,8 +126,8 @@ bool SolidForces::computable(const Model& model, PartIndex p, Diagnostics& diagn
            "use ELFORM = 1", "*SECTION_SOLID");
   }
   if (const int type = hourglass_of(model, part).type; type < 1 || type > 5) {
-    refuse("hourglass control IHQ = " + std::to_string(type), "use IHQ = 1, 2 or 3 (viscous), 4 or 5 (stiffness), by *HOURGLASS",
-           "*HOURGLASS");
+    refuse("hourglass control IHQ = " + std::to_string(type),
+           "use IHQ = 1, 2 or 3 (viscous), 4 or 5 (stiffness), by *HOURGLASS", "*HOURGLASS");
   }
   return good;
 }
@@ -191,7 +198,8 @@ void SolidForces::report_broken(const Model& model, const State& state, const Ti
       continue;
     }
     const Vec3& x = state.nodes.x[nodes[a]];
-    text += " " + std::to_string(model.nodes.id[nodes[a]]) + " (" + number(x.x) + ", " + number(x.y) + ", " + number(x.z) + ")";
+    text += " " + std::to_string(model.nodes.id[nodes[a]]) + " (" + number(x.x) + ", " + number(x.y) + ", " +
+            number(x.z) + ")";
   }
   throw RunError(text);
 }
@@ -207,7 +215,8 @@ void SolidForces::report(SolidResults& results) const {
   for (const Tile& tile : mesh_.tiles) {
     for (std::size_t i = 0; i < tile.elements; ++i) {
       const std::size_t place = tile.first_block * block_lanes + i;
-      const double* own = history_.data() + place / block_lanes * solid_history::count * block_lanes + place % block_lanes;
+      const double* own =
+          history_.data() + place / block_lanes * solid_history::count * block_lanes + place % block_lanes;
       StressVector& s = results.stress[mesh_.element[place]];
       for (std::size_t c = 0; c < s.size(); ++c) s[c] = own[(solid_history::stress + c) * block_lanes];
     }

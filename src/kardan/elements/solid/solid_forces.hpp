@@ -14,11 +14,12 @@ namespace kardan {
 
 class SolidForces {
  public:
-  /// Cuts the tiles of all solids that are not rigid; complains about formulations, hourglass controls and materials that are
-  /// not computed.
+  /// Cuts the tiles of all solids that are not rigid; complains about formulations, hourglass controls and materials
+  /// that are not computed.
   SolidForces(const Model& model, State& state, Diagnostics& diagnostics);
 
-  /// Stresses to t_n and forces onto the nodes. @throws RunError naming a solid without volume or with a value that is not finite.
+  /// Stresses to t_n and forces onto the nodes. @throws RunError naming a solid without volume or with a value that is
+  /// not finite.
   void internal_forces(const Model& model, State& state);
   const Governing& governing() const { return governing_; }
   /// Adds the energies at t_n, by part.
@@ -44,11 +45,11 @@ class SolidForces {
   TileMesh mesh_;
   SlotSum slots_;
   SolidKernel kernel_;
-  std::vector<SolidProperties> properties_;  ///< by part of the model
-  std::vector<double> history_;              ///< blocks of all tiles
-  std::vector<double> internal_, hourglass_; ///< energies, by tile
-  std::vector<Outcome> outcome_;             ///< by tile
-  std::vector<Scratch> scratch_;             ///< by thread
+  std::vector<SolidProperties> properties_;   ///< by part of the model
+  std::vector<double> history_;               ///< blocks of all tiles
+  std::vector<double> internal_, hourglass_;  ///< energies, by tile
+  std::vector<Outcome> outcome_;              ///< by tile
+  std::vector<Scratch> scratch_;              ///< by thread
   Governing governing_;
 };
 
