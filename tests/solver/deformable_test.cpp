@@ -55,6 +55,7 @@ Model column(int count) {
   }
   model.control.termination.end_time = 1e-2;
   model.control.hourglass_type = 4;
+  model.control.time_step.scale = 0.67;  // one element wide: free to swell sideways, see docs/limits.md
   return model;
 }
 
@@ -88,6 +89,8 @@ TEST(DeformableSolids, ColumnOnARigidBodyKeepsMomentumAndEnergy) {
   double size = 0;
   const auto start = momentum(state, &size);
   ASSERT_GT(size, 0.0);
+  ASSERT_TRUE(solver.step());
+  EXPECT_EQ(state.step_owner.kind, TimeStepOwner::Kind::solid);
   EXPECT_EQ(solver.run(), StopReason::end_time);
   EXPECT_GT(state.clock.cycle, 500);
   EXPECT_GT(norm(state.bodies.motion[0].angular_velocity), 1.0);  // it was dragged along
@@ -97,7 +100,6 @@ TEST(DeformableSolids, ColumnOnARigidBodyKeepsMomentumAndEnergy) {
   EXPECT_NEAR(state.energy.ratio(), 1.0, 0.01);
   EXPECT_GT(state.energy.part_internal[1], 0.0);
   EXPECT_EQ(state.energy.part_internal[0], 0.0);
-  EXPECT_EQ(state.step_owner.kind, TimeStepOwner::Kind::solid);
 }
 
 }  // namespace
