@@ -1,4 +1,6 @@
 // case.json: the committed cases are sound, and misspelt ones are refused.
+#include <unistd.h>
+
 #include "kardan/app/verify/case.hpp"
 
 #include <cmath>
@@ -49,14 +51,14 @@ TEST(Cases, TablesAreSampledExactly) {
 class Folder : public ::testing::Test {
  protected:
   Folder() { std::filesystem::create_directories(folder_); }
-  ~Folder() override { std::filesystem::remove_all(folder_.parent_path()); }
+  ~Folder() override { std::filesystem::remove_all(folder_.parent_path().parent_path()); }
   void write(const std::string& figure,
              const std::string& run = R"("deck": "d.k", "sample": 1, "steps": 2, "end": 4)") {
     std::ofstream(folder_ / "case.json") << R"({"title": "t", "proves": "p", "source": "s", "runs": {"r": {)" << run
                                          << R"(}}, "figures": [{)" << figure << "}]}";
   }
   std::filesystem::path folder_ =
-      std::filesystem::path(::testing::TempDir()) / "kardan_verify_cases" / "group" / "case";
+      std::filesystem::path(::testing::TempDir()) / ("kardan_verify_cases_" + std::to_string(::getpid())) / "group" / "case";
 };
 
 TEST_F(Folder, ReadsRunsAndFigures) {

@@ -1,4 +1,6 @@
 // The measures of verification on histories with known answers.
+#include <unistd.h>
+
 #include "kardan/app/verify/measure.hpp"
 
 #include <cmath>
@@ -99,7 +101,7 @@ TEST(Measure, ContradictionsAreRefused) {
 class Table : public ::testing::Test {
  protected:
   std::filesystem::path write(const std::string& text) {
-    const auto file = std::filesystem::path(::testing::TempDir()) / "kardan_verify_table.csv";
+    const auto file = std::filesystem::path(::testing::TempDir()) / ("kardan_verify_table_" + std::to_string(::getpid()) + ".csv");
     std::ofstream(file) << text;
     return file;
   }

@@ -1,4 +1,6 @@
 // A deck is run and sampled as case.json says.
+#include <unistd.h>
+
 #include "kardan/app/verify/runner.hpp"
 
 #include <fstream>
@@ -41,7 +43,7 @@ TEST_F(Runner, UnknownBodiesAreRefused) {
 }
 
 TEST_F(Runner, ARunThatEndsEarlyIsRefused) {
-  const auto file = std::filesystem::path(::testing::TempDir()) / "kardan_verify_endcyc.k";
+  const auto file = std::filesystem::path(::testing::TempDir()) / ("kardan_verify_endcyc_" + std::to_string(::getpid()) + ".k");
   {
     std::ifstream in(run_.deck);
     std::ofstream out(file);

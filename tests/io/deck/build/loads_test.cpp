@@ -1,4 +1,6 @@
 // *BOUNDARY, *INITIAL_VELOCITY, *LOAD, *CONTROL, *DATABASE, include transformations.
+#include <unistd.h>
+
 #include "build_fixture.hpp"
 
 #include <filesystem>
@@ -186,7 +188,7 @@ TEST(BuildErrors, AtMostFiftyAreKept) {
 }
 
 TEST(BuildInclude, TransformShiftsNumbersUnitsAndPlaces) {
-  const auto folder = std::filesystem::temp_directory_path() / "kardan_build_include";
+  const auto folder = std::filesystem::temp_directory_path() / ("kardan_build_include_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "part.k")
       << "*KEYWORD\n"
