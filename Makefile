@@ -24,6 +24,7 @@ test: build
 
 verify-long: build
 	$(KARDAN) verify mechanisms-long
+	KARDAN_LONG=1 build/release/bin/kardan_test_app --gtest_filter='CorpusRun.*'
 
 sanitize: packages
 	cmake --preset sanitize

@@ -69,6 +69,8 @@ TEST(Schema, GuessesWhatWasMeant) {
   EXPECT_EQ(schema().nearest("CONSTRAINED_JOINT_REVOLUT"), "CONSTRAINED_JOINT_REVOLUTE");
   EXPECT_EQ(schema().nearest("NODEE"), "NODE");
   EXPECT_EQ(schema().nearest("CONTROL_TERMINATON"), "CONTROL_TERMINATION");
+  EXPECT_EQ(schema().nearest("CXNTRQL_TZRMINATION"), "CONTROL_TERMINATION");  // three characters foreign to it
+  EXPECT_EQ(schema().nearest("CXNTRQL_TZRMINATI9N"), "");                     // four
   EXPECT_EQ(schema().nearest("QQQQQQQQQQQQ"), "");
 }
 

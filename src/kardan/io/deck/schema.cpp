@@ -1,6 +1,7 @@
 #include "kardan/io/deck/schema.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <limits>
 #include <utility>
@@ -86,6 +87,18 @@ KeywordStatus to_status(std::string_view text) {
   return KeywordStatus::stops;
 }
 
+/// One bit for each character that occurs (letters, digits and the underscore differ in their lowest six bits).
+std::uint64_t characters_of(std::string_view name) {
+  std::uint64_t bits = 0;
+  for (const char c : name) bits |= std::uint64_t{1} << (static_cast<unsigned char>(c) & 63u);
+  return bits;
+}
+
+/// Not more than Levenshtein's distance: an edit brings in at most one character and takes out at most one.
+std::size_t least_edits(std::uint64_t a, std::uint64_t b) {
+  return static_cast<std::size_t>(std::max(std::popcount(a & ~b), std::popcount(b & ~a)));
+}
+
 /// Levenshtein's distance, given up beyond `limit`.
 std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t limit) {
   const std::size_t difference = a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
@@ -137,6 +150,7 @@ Schema::Schema() {
       else
         add_keyword(line);
     }
+  for (const auto& [name, row] : by_name_) guesses_.push_back({name, characters_of(name), row});
 }
 
 void Schema::add_keyword(std::string_view line) {
@@ -209,7 +223,9 @@ std::string Schema::nearest(std::string_view name) const {
   const std::size_t limit = std::min<std::size_t>(3, name.size() / 4);
   std::size_t best = limit + 1;
   std::string found;
-  for (const auto& [known, row] : by_name_) {
+  const std::uint64_t characters = characters_of(name);
+  for (const auto& [known, known_characters, row] : guesses_) {
+    if (least_edits(characters, known_characters) > std::min(limit, best)) continue;
     const std::size_t distance = edit_distance(name, known, std::min(limit, best));
     // Of equally near ones, one that works is the better guess.
     if (distance < best || (distance == best && best <= limit && keywords_[row].status == KeywordStatus::honoured)) {

@@ -76,6 +76,12 @@ class Schema {
   void add_keyword(std::string_view line);
   std::vector<KeywordInfo> keywords_;
   std::map<std::string, std::size_t, std::less<>> by_name_;  // names and aliases -> row
+  struct Guess {
+    std::string_view name;     // of by_name_
+    std::uint64_t characters;  // those that occur in it
+    std::size_t row;
+  };
+  std::vector<Guess> guesses_;  // what a misspelt name is compared with, in the order of the names
 };
 
 /// docs/keywords.md: the honoured keywords, those read and not needed, those that stop a run.
