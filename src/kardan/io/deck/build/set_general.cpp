@@ -12,6 +12,10 @@ using namespace set_detail;
 
 namespace {
 
+bool lacks_node(const std::array<NodeIndex, 4>& s) {
+  return std::find(s.begin(), s.end(), none) != s.end();
+}
+
 std::array<NodeIndex, 4> sorted_corners(std::array<NodeIndex, 4> s) {
   std::sort(s.begin(), s.end());
   return s;
@@ -116,7 +120,7 @@ std::vector<Sets::Segment> Sets::exterior_faces(const std::vector<Index>& solids
       for (const NodeIndex n : s) {
         if (std::find(corners.begin(), corners.end(), n) == corners.end()) corners.push_back(n);
       }
-      if (corners.size() < 3 || corners.front() == none) continue;
+      if (corners.size() < 3) continue;
       s = {corners[0], corners[1], corners[2], corners.size() == 4 ? corners[3] : corners[2]};
       auto& entry = seen_faces[sorted_corners(s)];
       if (entry.second++ == 0) {
@@ -138,6 +142,8 @@ std::vector<Sets::Segment> Sets::segments_of_part(PartIndex part) {
   for (const Index e : in_part(SetKind::shell, part)) segments.push_back(b_.model.shells.nodes[at(e)]);
   const std::vector<Segment> faces = exterior_faces(in_part(SetKind::solid, part));
   segments.insert(segments.end(), faces.begin(), faces.end());
+  // An element may name nodes that are not defined (reported where it stands): no segment of a set lacks a node.
+  std::erase_if(segments, lacks_node);
   return segments;
 }
 
@@ -151,7 +157,7 @@ void Sets::general_segments(const std::string& option, const Card& row, Gatherin
   } else if (option == "SEG") {
     Segment s{b_.node(row, "e1"), b_.node(row, "e2"), b_.node(row, "e3"), none};
     s[3] = row.id("e4", IdKind::node) == 0 ? s[2] : b_.node(row, "e4");
-    if (std::find(s.begin(), s.end(), none) == s.end()) found.push_back(s);
+    found.push_back(s);
   } else if (option == "PART" || option == "BOX" || option == "SHELL" || option == "SET_SHELL" ||
              option == "SET_SEGMENT" || option == "SET_SGMT") {
     for (int i = 1; i <= 7; ++i) {
@@ -191,6 +197,7 @@ void Sets::general_segments(const std::string& option, const Card& row, Gatherin
                   ", expected ALL, PART, BOX, SEG, SHELL, SET_SHELL or SET_SEGMENT (with D in front to delete)",
               "correct the option");
   }
+  std::erase_if(found, lacks_node);
   if (!remove_them) {
     g.segments.insert(g.segments.end(), found.begin(), found.end());
     return;
