@@ -1,6 +1,7 @@
 """Writes the decks of verification/deformable. Run it from the root of the project; the decks it wrote are committed."""
 import pathlib
 
+import shell_cases
 from deck import card
 
 HEAD = """*KEYWORD
@@ -75,6 +76,7 @@ def main():
             1.0, n, 7850.0, 210e9, (1.5, 0.06), 1.6e-3, step_load(1e6))
     bar(root / "bar_wall" / "bar_200.k", "Elastic bar against a wall", "A bar of 200 hexahedra hits a wall at 10 m/s; its nodes at x = 0 stay there.",
         0.0324, 200, 8930.0, 117e9, (1.5, 0.06), 2.6e-5, impact(10.0))
+    shell_cases.write_all()
 
 
 if __name__ == "__main__":

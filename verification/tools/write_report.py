@@ -25,7 +25,7 @@ def machine():
 
 def main():
     program = sys.argv[1]
-    groups = ["deformable", "mechanisms"] if "--quick" in sys.argv else ["deformable", "mechanisms", "mechanisms-long"]
+    groups = ["deformable", "mechanisms"] if "--quick" in sys.argv else ["deformable", "deformable-long", "mechanisms", "mechanisms-long"]
     with open(os.path.join(HERE, "report_head.md")) as f:
         print(f.read().rstrip())
     version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout.strip().split("\n")[0]

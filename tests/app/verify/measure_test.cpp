@@ -88,6 +88,27 @@ TEST(Measure, CrossingsOfASineAreItsZeros) {
   EXPECT_TRUE(std::isinf(measure(c, s, {}))) << "a crossing that never comes must not pass";
 }
 
+TEST(Measure, FrequenciesOfTwoSinesOnAnOffsetAreFound) {
+  Series s;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.02 * i, turn = 2 * std::numbers::pi;
+    s.append(t, std::vector{3 + std::cos(turn * 0.7 * t) + 0.05 * std::sin(turn * 1.9 * t)});
+  }
+  EXPECT_NEAR(frequency(s, 0, 20, 0.72, 0.1), 0.7, 1e-4);
+  EXPECT_NEAR(frequency(s, 0, 20, 1.8, 0.1), 1.9, 1e-3);
+  EXPECT_TRUE(std::isnan(frequency(s, 0, 20, 0.8, 0.05))) << "no peak there: the skirt of another one";
+  Comparison c = with(Measure::frequency_error);
+  c.frequencies = {0.7, 1.9 / 1.01};
+  EXPECT_NEAR(measure(c, s, {}), 0.01, 1e-3);
+  c.frequencies = {0.8};
+  c.band = 0.05;
+  EXPECT_TRUE(std::isinf(measure(c, s, {})));
+}
+
+TEST(Measure, TimesOfPeaksAreCompared) {
+  EXPECT_DOUBLE_EQ(measure(with(Measure::peak_time_error, Scale::Kind::number, 0.1), scalar({0, 1, -3, 2}), scalar({0, 2, 1, 0})), 1.0);
+}
+
 TEST(Measure, ContradictionsAreRefused) {
   Series two;
   two.width = 2;

@@ -60,7 +60,7 @@ Scale read_scale(const json& entry) {
 
 Figure read_figure(const json& entry, const Case& of) {
   only_keys(entry, {"figure", "unit", "run", "runs", "signal", "oracle", "measure", "scale", "from", "until", "level",
-                    "crossings", "limit", "at_least", "note"});
+                    "crossings", "frequencies", "band", "limit", "at_least", "note"});
   Figure figure;
   figure.name = entry.at("figure").get<std::string>();
   figure.unit = entry.value("unit", "1");
@@ -75,6 +75,8 @@ Figure read_figure(const json& entry, const Case& of) {
   c.until = entry.value("until", c.until);
   c.level = entry.value("level", 0.0);
   c.crossings = entry.value("crossings", std::vector<double>{});
+  c.frequencies = entry.value("frequencies", std::vector<double>{});
+  c.band = entry.value("band", c.band);
   figure.at_least = entry.contains("at_least");
   figure.limit = entry.at(figure.at_least ? "at_least" : "limit").get<double>();
   figure.note = entry.value("note", "");

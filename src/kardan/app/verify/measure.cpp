@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace kardan::verify {
@@ -84,16 +85,36 @@ double crossing_error(const Comparison& c, const Series& signal) {
   return largest;
 }
 
+double peak_time(const Series& series, double from, double until) {
+  double largest = -1, time = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    if (series.time[i] < from || series.time[i] > until || !(length(series.at(i)) > largest)) continue;
+    largest = length(series.at(i));
+    time = series.time[i];
+  }
+  return time;
+}
+
+double frequency_error(const Comparison& c, const Series& signal) {
+  if (c.frequencies.empty()) throw CaseError("a frequency_error needs \"frequencies\"");
+  double largest = 0;
+  for (const double f : c.frequencies)
+    largest = larger(largest, std::abs(frequency(signal, c.from, c.until, f, c.band) / f - 1));
+  return largest;
+}
+
 }  // namespace
 
 Measure measure_from(const std::string& name) {
-  static const std::array<std::pair<const char*, Measure>, 8> names{{{"max_error", Measure::max_error},
+  static const std::array<std::pair<const char*, Measure>, 10> names{{{"max_error", Measure::max_error},
                                                                      {"quaternion_error", Measure::quaternion_error},
                                                                      {"final_error", Measure::final_error},
                                                                      {"peak_error", Measure::peak_error},
                                                                      {"largest", Measure::largest},
                                                                      {"drift", Measure::drift},
+                                                                     {"peak_time_error", Measure::peak_time_error},
                                                                      {"crossing_error", Measure::crossing_error},
+                                                                     {"frequency_error", Measure::frequency_error},
                                                                      {"order", Measure::order}}};
   for (const auto& [text, value] : names)
     if (name == text) return value;
@@ -107,6 +128,45 @@ std::vector<double> crossings(const Series& signal, double level) {
     if ((a < 0) != (b < 0)) times.push_back(signal.time[i - 1] + (signal.time[i] - signal.time[i - 1]) * (a / (a - b)));
   }
   return times;
+}
+
+double frequency(const Series& signal, double from, double until, double expected, double band) {
+  std::vector<double> x;
+  double mean = 0;
+  for (std::size_t i = 0; i < signal.size(); ++i) {
+    if (signal.time[i] >= from && signal.time[i] <= until) x.push_back(signal.values[i * signal.width]);
+  }
+  if (x.size() < 8) throw CaseError("a frequency needs at least eight samples");
+  for (const double v : x) mean += v / static_cast<double>(x.size());
+  const double count = static_cast<double>(x.size()), turn = 2 * std::numbers::pi;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = (x[i] - mean) * (1 - std::cos(turn * (static_cast<double>(i) + 0.5) / count));
+
+  const double interval = signal.time[1] - signal.time[0];
+  const auto power = [&](double f) {
+    double re = 0, im = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double phase = turn * f * interval * static_cast<double>(i);
+      re += x[i] * std::cos(phase);
+      im += x[i] * std::sin(phase);
+    }
+    return re * re + im * im;
+  };
+  // Coarse search in steps much finer than the width of a peak, twice more around the best, then a parabola.
+  double best = expected, step = std::min(band * expected, 1 / (count * interval)) / 8, reach = band * expected;
+  for (int round = 0; round < 3; ++round, reach = 2 * step, step /= 16) {
+    const double centre = best;
+    const int half = static_cast<int>(std::ceil(reach / step));
+    int at = -half;
+    double largest = -1;
+    for (int k = -half; k <= half; ++k) {
+      if (const double p = power(centre + k * step); p > largest) largest = p, at = k;
+    }
+    if (at == -half || at == half) return std::numeric_limits<double>::quiet_NaN();
+    best = centre + at * step;
+  }
+  const double left = power(best - step), middle = power(best), right = power(best + step);
+  return best + 0.5 * step * (left - right) / (left - 2 * middle + right);
 }
 
 double measure(const Comparison& c, const Series& signal, const std::optional<Series>& oracle) {
@@ -131,6 +191,10 @@ double measure(const Comparison& c, const Series& signal, const std::optional<Se
       return scaled(c, peak(signal, c.from, c.until), signal, oracle);
     case Measure::drift:
       return scaled(c, drift(c, signal), signal, oracle);
+    case Measure::peak_time_error:
+      return scaled(c, std::abs(peak_time(signal, c.from, c.until) - peak_time(needed(), c.from, c.until)), signal, oracle);
+    case Measure::frequency_error:
+      return frequency_error(c, signal);
     case Measure::crossing_error:
       return crossing_error(c, signal);
     case Measure::order:

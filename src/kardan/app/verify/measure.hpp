@@ -17,7 +17,9 @@ enum class Measure {
   peak_error,        ///< | max |s| - max |o| |
   largest,           ///< largest |s|; no oracle
   drift,             ///< largest |s - s(first)|; no oracle
+  peak_time_error,   ///< |t of the largest |s| - t of the largest |o||
   crossing_error,    ///< largest |t - expected| of the times at which s crosses `level`
+  frequency_error,   ///< largest |f / expected - 1| of the frequencies at which s has peaks of its spectrum
   order              ///< order of convergence: log of the quotient of two runs' max_error over log of their dt's
 };
 /// @throws CaseError for a name that is none of them.
@@ -36,6 +38,8 @@ struct Comparison {
   double from = 0, until = 1e300;  ///< times outside are left out
   double level = 0;                ///< crossing_error
   std::vector<double> crossings;   ///< crossing_error: expected times; the run must have at least as many
+  std::vector<double> frequencies; ///< frequency_error: expected, cycles per unit of time
+  double band = 0.08;              ///< frequency_error: a peak is looked for so far from what is expected, as a share of it
 };
 
 /// One number for the distance of `signal` from `oracle` (needed by all measures with an o above). Samples are matched
@@ -46,5 +50,10 @@ double measure(const Comparison& comparison, const Series& signal, const std::op
 
 /// Times at which a scalar history crosses `level`, interpolated linearly between its samples.
 std::vector<double> crossings(const Series& signal, double level);
+
+/// Frequency at which the spectrum of the equally spaced scalar samples in [from, until], their mean taken off and a Hann window
+/// put over them, has its largest value within `band` of `expected`; NaN if there is no peak in it. Components closer
+/// than 4 / (until - from) disturb each other.
+double frequency(const Series& signal, double from, double until, double expected, double band);
 
 }  // namespace kardan::verify

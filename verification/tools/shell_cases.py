@@ -1,0 +1,227 @@
+"""Plates and shells of verification/deformable: decks at several refinements, tables and case.json."""
+import csv
+import json
+import math
+import pathlib
+
+import mesh
+from deck import card
+from structure import Structure, elastic, shell_section, write_case
+
+ROOT = pathlib.Path("verification/deformable")
+SHARED = pathlib.Path("../shared/verification")
+SI = "kg, m, s, N"
+IMPERIAL = "lb s^2/in, in, s, lb"
+
+
+def oracles():
+    return json.loads((SHARED / "f_fe.json").read_text())
+
+
+def table(folder, name):
+    """Copies a table of the oracles beside the case."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / name).write_text((SHARED / name).read_text())
+
+
+def write_table(path, header, rows):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with open(path, "w", newline="") as f:
+        out = csv.writer(f, lineterminator="\n")
+        out.writerow(header)
+        out.writerows([f"{v:.14e}" for v in row] for row in rows)
+
+
+def run(deck, sample, end, length, modulus, density, ratio, share=0.85, slow=False):
+    """A run at `share` of the Courant step of plane stress, sampled every `sample` (which it divides) until `end` at least."""
+    c = math.sqrt(modulus / (density * (1 - ratio * ratio)))
+    entry = {"deck": deck, "sample": sample, "steps": math.ceil(sample / (share * length / c)),
+             "end": sample * math.ceil(end / sample - 1e-9)}
+    if slow:
+        entry["long"] = True
+    return entry
+
+
+def displacement(node, axis=2):
+    return {"node": node, "quantity": "displacement", "components": [axis]}
+
+
+def frequencies(what, run_name, node, values, limit=0.01, **more):
+    return {"figure": f"frequency, {what}, relative", "run": run_name, "signal": displacement(node), "measure": "frequency_error",
+            "frequencies": values, "limit": limit, **more}
+
+
+def peak(what, run_name, node, oracle, until, limit=0.02):
+    return {"figure": f"peak of the step response, {what}, relative", "run": run_name, "signal": displacement(node), "oracle": oracle,
+            "measure": "peak_error", "scale": "peak", "until": until, "limit": limit}
+
+
+def energy(what, run_name, limit=0.01):
+    return {"figure": f"energy: total - external work, {what}, of the largest external work", "run": run_name,
+            "signal": {"energy": "balance"}, "oracle": {"run": run_name, "signal": {"energy": "external_work"}},
+            "measure": "largest", "scale": "peak", "limit": limit}
+
+
+def cantilever_beam():
+    """f5: a bar of 1 m by 50 mm by 50 mm of one row of shells, 10 N on its end from t = 0 on."""
+    o = oracles()["f5_cantilever"]
+    e, rho, nu, length, b, h = (o[k] for k in ("E", "rho", "nu", "L", "b", "h"))
+    folder, f1, force = ROOT / "cantilever_beam", o["f_timoshenko_Hz"][0], 10.0
+    # Modal sum for a force on the end: phi_n = 2 (up to sign) there for modes of mean square 1; w = sum 4 F/(m w_n^2) (1 - cos w_n t).
+    # Frequencies of Timoshenko's beam, shapes of Euler and Bernoulli's.
+    mass, sample = rho * length * b * h, 1 / f1 / 40
+    omega = [2 * math.pi * f for f in o["f_timoshenko_Hz"]]
+    write_table(folder / "step.csv", ["t", "w_tip"],
+                [(i * sample, sum(4 * force / (mass * w * w) * (1 - math.cos(w * i * sample)) for w in omega)) for i in range(41)])
+    runs, figures = {}, []
+    for n, across, slow in ((10, 1, False), (20, 1, False), (80, 4, True)):
+        m = mesh.rectangle(n, across, length, b)
+        s = Structure("Cantilever under a step load at its end", f"One row of {n} by {across} shells, thickness {h}.", SI, 0.1, m,
+                      shell_section(h, 3), elastic(rho, e, nu))
+        s.hold(lambda x, y, z: x == 0, "xyz", "xyz")
+        tip = m.where(lambda x, y, z: x == length)
+        share = m.corner_areas()
+        width = sum(share[k] for k in tip)
+        s.forces(3, {k: force * share[k] / width for k in tip})
+        s.write(folder / f"beam_{n}.k")
+        name = f"{n} elements"
+        runs[f"n{n}"] = run(f"beam_{n}.k", sample, 0.1, m.characteristic_length(), e, rho, nu, slow=slow)
+        figures += [frequencies(name, f"n{n}", tip[0], [f1]),
+                    peak(name, f"n{n}", tip[0], {"file": "step.csv", "columns": ["w_tip"]}, 0.024), energy(name, f"n{n}")]
+    write_case(folder, "Cantilever of shells", "Bending of Belytschko-Tsay shells: first frequency and step response of a beam; shells as thick "
+               "as they are wide.", "frequency of Timoshenko's beam; step response: modal sum", runs, figures)
+
+
+def cantilever_plate():
+    """f7: a square plate of 10 m, thickness 50 mm, clamped along one edge; a force on a free corner excites all modes."""
+    o = oracles()["f7_cantilever_plate"]
+    a, h, e, nu, rho = (o[k] for k in ("a", "h", "E", "nu", "rho"))
+    folder, wanted = ROOT / "cantilever_plate", o["f_Hz"][:5]
+    runs, figures = {}, []
+    sample, end = 0.02, 13.0
+    for n, slow in ((8, False), (16, False), (32, True)):
+        m = mesh.rectangle(n, n, a, a)
+        s = Structure("Square cantilever plate", f"{n} by {n} shells, clamped along x = 0, a force on a free corner from t = 0 on.", SI, end,
+                      m, shell_section(h, 3), elastic(rho, e, nu))
+        s.hold(lambda x, y, z: x == 0, "xyz", "xyz")
+        corner = m.at(a, a)
+        s.forces(3, {corner: 1.0})
+        s.write(folder / f"plate_{n}.k")
+        runs[f"n{n}"] = run(f"plate_{n}.k", sample, end, m.characteristic_length(), e, rho, nu, slow=slow)
+        # Quadratic convergence: 1 % is asked of mode 1 on 8 x 8, of modes 1 and 2 on 16 x 16, of all on 32 x 32 elements.
+        for k, f in enumerate(wanted[:{8: 1, 16: 5, 32: 5}[n]]):
+            figures.append(frequencies(f"mode {k + 1}, {n} x {n}", f"n{n}", corner, [f], 0.01 if n == 32 or k < 2 else 0.03))
+        figures.append(energy(f"{n} x {n}", f"n{n}"))
+    write_case(folder, "Square cantilever plate", "Bending and twisting of Belytschko-Tsay shells: the first five frequencies of a thin plate.",
+               "Rayleigh-Ritz solution of the thin plate (beam functions, 26 x 26 terms)", runs, figures)
+
+
+def circular_plate():
+    """f6, a fifth as thick and under 0.002 psi: linear to 1e-4, and thin enough for the formulas without shear."""
+    o = oracles()["f6_circular_plate"]
+    radius, e, nu, rho = (o[k] for k in ("R", "E", "nu", "rho"))
+    thinner, pressure = 5, 0.002
+    h = o["h"] / thinner
+    folder = ROOT / "circular_plate"
+    table(folder, "f6_circular_plate_linear_step.csv")
+    oracle = {"file": "f6_circular_plate_linear_step.csv", "columns": ["w_centre"], "time_factor": thinner,
+              "factor": pressure / o["p"] * thinner ** 3}
+    f1 = o["f_Hz"][0] / thinner
+    runs, figures = {}, []
+    for n, slow in ((8, False), (12, False), (24, True)):
+        m = mesh.quarter_disk(n, radius)
+        s = quarter(Structure("Clamped circular plate under a step of pressure", f"A quarter, 3 x {n} x {n} shells; thickness {h}.", IMPERIAL,
+                              0.032, m, shell_section(h, 3), elastic(rho, e, nu)))
+        s.hold(lambda x, y, z: math.hypot(x, y) > radius * (1 - 1e-9), "xyz", "xyz")
+        s.forces(3, {k: pressure * area for k, area in m.corner_areas().items()})
+        s.write(folder / f"plate_{n}.k")
+        runs[f"n{n}"] = run(f"plate_{n}.k", 20e-6, 0.031, m.characteristic_length(), e, rho, nu, slow=slow)
+        name = f"3 x {n} x {n} elements"
+        figures += [frequencies(name, f"n{n}", 1, [f1]), peak(name, f"n{n}", 1, oracle, 0.0101), energy(name, f"n{n}")]
+    write_case(folder, "Clamped circular plate, linear", "First frequency and step response of a clamped plate of Belytschko-Tsay shells in a mesh "
+               "that is not regular; R/h = 100, so that shear does not matter.", "modal sum of Kirchhoff's plate", runs, figures)
+
+
+def plastic(density, modulus, ratio, yield_stress, tangent=0.0):
+    return ["$ SIGY, ETAN", "*MAT_PIECEWISE_LINEAR_PLASTICITY", card(1, density, modulus, ratio, yield_stress, tangent), "0", "0", "0"]
+
+
+def circular_plate_large():
+    """f9: the plate of f6 under 100 psi, elastic, and under 250 psi, elastic-plastic: deflections of about its thickness."""
+    o = oracles()["f6_circular_plate"]
+    radius, h, e, nu, rho = (o[k] for k in ("R", "h", "E", "nu", "rho"))
+    folder = ROOT / "circular_plate_large"
+    laws = {"elastic": (100.0, "f9_plate_160x8_elastic_p100.csv", elastic(rho, e, nu), 3, 0.01),
+            "plastic": (250.0, "f9_plate_160x8_ep_p250.csv", plastic(rho, e, nu, 30000.0), 5, 0.03)}
+    runs, figures = {}, []
+    for law, (pressure, name, material, points, energy_limit) in laws.items():
+        table(folder, name)
+        for n, slow in ((8, False), (16, False), (24, True)):
+            m = mesh.quarter_disk(n, radius)
+            s = quarter(Structure(f"Clamped circular plate, large deflection, {law}", f"A quarter, 3 x {n} x {n} shells; thickness {h}.", IMPERIAL,
+                                  0.002, m, shell_section(h, points), material))
+            s.hold(lambda x, y, z: math.hypot(x, y) > radius * (1 - 1e-9), "xyz", "xyz")
+            s.forces(3, {k: pressure * area for k, area in m.corner_areas().items()})
+            key = f"{law}_{n}"
+            s.write(folder / f"{key}.k")
+            runs[key] = run(f"{key}.k", 5e-6, 0.002, m.characteristic_length(), e, rho, nu, 0.8, slow)
+            what = f"{law}, 3 x {n} x {n} elements"
+            oracle = {"file": name, "columns": ["w_centre"]}
+            figures += [peak(what, key, 1, oracle, 0.002, 0.03),
+                        {"figure": f"time of the peak, {what}, of itself", "run": key, "signal": displacement(1), "oracle": oracle,
+                         "measure": "peak_time_error", "scale": 0.00099 if law == "elastic" else 0.00127, "until": 0.002, "limit": 0.03},
+                        energy(what, key, energy_limit)]
+    write_case(folder, "Clamped circular plate, large deflection", "Membrane stresses from large rotations, and yielding through the thickness, of "
+               "Belytschko-Tsay shells.", "axisymmetric solid elements, 160 x 8", runs, figures)
+
+
+def quarter(s):
+    """Symmetry about the planes x = 0 and y = 0."""
+    s.hold(lambda x, y, z: x == 0, "x", "yz")
+    s.hold(lambda x, y, z: y == 0, "y", "xz")
+    return s
+
+
+def square_plate():
+    """f8 under 3 psi, which is linear to 1e-4."""
+    o = oracles()["f8_square_plate"]
+    a, h, e, nu, rho = (o[k] for k in ("a", "h", "E", "nu", "rho"))
+    pressure = 3.0
+    folder = ROOT / "square_plate"
+    table(folder, "f8_square_plate_linear_step.csv")
+    oracle = {"file": "f8_square_plate_linear_step.csv", "columns": ["w_centre_mindlin"], "factor": pressure / o["p"]}
+    # Mindlin, k = 5/6, rotary inertia: frequency of the first flexural mode of the hard simply supported plate.
+    runs, figures = {}, []
+    for n, slow in ((8, False), (16, False), (32, True)):
+        m = mesh.rectangle(n, n, a / 2, a / 2)
+        s = quarter(Structure("Simply supported square plate under a step of pressure", f"A quarter, {n} x {n} shells; thickness {h}.", IMPERIAL,
+                              0.006, m, shell_section(h, 3), elastic(rho, e, nu)))
+        s.hold(lambda x, y, z: x == a / 2, "z", "x")
+        s.hold(lambda x, y, z: y == a / 2, "z", "y")
+        s.forces(3, {k: pressure * area for k, area in m.corner_areas().items()})
+        s.write(folder / f"plate_{n}.k")
+        runs[f"n{n}"] = run(f"plate_{n}.k", 5e-6, 0.006, m.characteristic_length(), e, rho, nu, slow=slow)
+        name = f"{n} x {n} elements of a quarter"
+        figures += [frequencies(name, f"n{n}", 1, [mindlin_first_frequency(a, h, e, nu, rho)]), peak(name, f"n{n}", 1, oracle, 1e-3),
+                    energy(name, f"n{n}")]
+    write_case(folder, "Simply supported square plate, linear", "First frequency and step response of a plate of Belytschko-Tsay shells, a/h = 20, "
+               "with transverse shear.", "modal sum of Mindlin's plate, shear factor 5/6", runs, figures)
+
+
+def mindlin_first_frequency(a, h, e, nu, rho):
+    """First flexural frequency of a simply supported square Mindlin plate with rotary inertia (Mindlin 1951): w = W sin sin, rotations
+    X cos sin and X sin cos; K - omega^2 M of (W, X) is singular. Shear factor 5/6."""
+    shear, bend, k = 5 / 6 * e / 2 / (1 + nu) * h, e * h ** 3 / 12 / (1 - nu * nu), math.pi / a
+    m, i = rho * h, rho * h ** 3 / 12
+    # per unit of area: W: 2 k^2 shear W + 2 k shear X = m w^2 W;  X: k shear W + (2 k^2 bend + shear) X = i w^2 X
+    p, q, r, s = 2 * k * k * shear, 2 * k * shear, k * shear, 2 * k * k * bend + shear
+    half = (p / m + s / i) / 2
+    return math.sqrt(half - math.sqrt(half * half - (p * s - q * r) / (m * i))) / (2 * math.pi)
+
+
+def write_all():
+    cantilever_beam()
+    cantilever_plate()
+    circular_plate()
+    square_plate()
+    circular_plate_large()
