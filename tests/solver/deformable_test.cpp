@@ -102,5 +102,17 @@ TEST(DeformableSolids, ColumnOnARigidBodyKeepsMomentumAndEnergy) {
   EXPECT_EQ(state.energy.part_internal[0], 0.0);
 }
 
+TEST(DeformableSolids, VelocitiesAgainstSupportsAreNoEnergyToBeginWith) {
+  Model model = column(4);
+  for (const NodeIndex n : model.solids.nodes[3]) model.nodes.constrained[static_cast<std::size_t>(n)] = 0b000001;  // x
+  model.control.termination.end_time = 1e-3;
+  Diagnostics diagnostics;
+  Solver solver(model, {}, diagnostics);
+  ASSERT_TRUE(diagnostics.ok());
+  EXPECT_EQ(solver.run(), StopReason::end_time);
+  const EnergyLedger& energy = solver.state().energy;
+  EXPECT_NEAR(energy.total(), energy.initial, 0.05 * energy.initial);  // half of it is gone where they are counted
+}
+
 }  // namespace
 }  // namespace kardan

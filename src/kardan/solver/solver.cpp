@@ -65,9 +65,9 @@ void Solver::set_up(const SolverOptions& options, Diagnostics& diagnostics) {
   if (!model_.joints.empty()) diagnostics.notice(choice.reason);
   rigid_ = std::make_unique<RigidSystem>(model_, state_, choice.holding, diagnostics);
   if (!diagnostics.ok()) return;
-  loads_ = std::make_unique<LoadSystem>(model_, state_, diagnostics);
-  if (!diagnostics.ok()) return;
   LoadSystem::set_initial_velocities(model_, state_, diagnostics);
+  loads_ = std::make_unique<LoadSystem>(model_, state_, diagnostics);  // takes out velocities against supports
+  if (!diagnostics.ok()) return;
   rigid_->set_initial_velocities(model_, state_, diagnostics);
   nodes_ = std::make_unique<NodeMover>(model_, state_);
 
