@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "kardan/loads/node_velocity.hpp"
 #include "kardan/state/frames.hpp"
 
 namespace kardan {
@@ -88,15 +89,10 @@ double PointForces::power(const State& state) const {
   double power = 0;
   for (const Entry& e : entries_) {
     Vec3 velocity;
-    if (e.body == none) {
-      velocity = e.moment ? state.nodes.omega[e.node] : state.nodes.v[e.node];
+    if (e.moment) {
+      velocity = e.body == none ? state.nodes.omega[e.node] : state.bodies.motion[e.body].angular_velocity;
     } else {
-      const BodyMotion& motion = state.bodies.motion[e.body];
-      velocity = motion.angular_velocity;
-      if (!e.moment) {
-        const Vec3 arm = e.node != none ? state.nodes.x[e.node] - motion.center : Vec3{};
-        velocity = motion.velocity + cross(motion.angular_velocity, arm);
-      }
+      velocity = e.node != none ? velocity_of(state, e.node) : state.bodies.motion[e.body].velocity;
     }
     power += dot(value_[e.load], velocity);
   }

@@ -32,6 +32,14 @@ struct PointLoad {
   std::array<NodeIndex, 3> m{none, none, none};  ///< M1, M2, M3 of follower forces
 };
 
+/// *LOAD_SEGMENT(_SET), *LOAD_SHELL_ELEMENT/_SET: a positive pressure acts against the normal of a segment.
+struct PressureLoad {
+  std::vector<std::array<NodeIndex, 4>> segments;  ///< a triangle repeats its third node
+  CurveIndex curve = none;                         ///< pressure against the time since `arrival`
+  double scale = 1.0;
+  double arrival = 0;                              ///< AT: no pressure before it
+};
+
 enum class MotionKind : std::uint8_t { velocity, acceleration, displacement, velocity_versus_displacement,
                                        relative_displacement };
 

@@ -50,6 +50,7 @@ struct Model {
 
   std::vector<BodyLoad> body_loads;
   std::vector<PointLoad> point_loads;
+  std::vector<PressureLoad> pressure_loads;
   std::vector<PrescribedMotion> prescribed_motions;
   std::vector<SinglePointConstraint> constraints;
   std::vector<InitialVelocity> initial_velocities;

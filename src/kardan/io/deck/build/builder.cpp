@@ -75,7 +75,11 @@ const std::unordered_map<std::string, Entry>& table() {
       {"LOAD_BODY_PARTS", {rest, build_body_load_parts}},
       {"LOAD_RIGID_BODY", {rest, build_point_load}},
       {"LOAD_NODE_POINT", {rest, build_point_load}},
-      {"LOAD_NODE_SET", {rest, build_point_load}}};
+      {"LOAD_NODE_SET", {rest, build_point_load}},
+      {"LOAD_SEGMENT", {rest, build_pressure}},
+      {"LOAD_SEGMENT_SET", {rest, build_pressure}},
+      {"LOAD_SHELL_ELEMENT", {rest, build_pressure}},
+      {"LOAD_SHELL_SET", {rest, build_pressure}}};
   return entries;
 }
 

@@ -192,6 +192,7 @@ void build_initial_velocity_generation(Builder&, Block&);
 void build_body_load(Builder&, Block&);
 void build_body_load_parts(Builder&, Block&);
 void build_point_load(Builder&, Block&);
+void build_pressure(Builder&, Block&);
 
 void build_title(Builder&, Block&);
 void build_control(Builder&, Block&);

@@ -1,0 +1,79 @@
+// A model of loose nodes and bodies, driven by a leapfrog of its own.
+#pragma once
+
+#include <algorithm>
+
+#include "kardan/loads/load_system.hpp"
+
+namespace kardan {
+
+struct Bench {
+  Model model;
+  State state;
+  Diagnostics diagnostics;
+
+  NodeIndex node(const Vec3& x) {
+    const auto n = static_cast<NodeIndex>(model.nodes.size());
+    model.nodes.id.push_back(n + 1);
+    model.nodes.index_of.emplace(n + 1, n);
+    model.nodes.x.push_back(x);
+    model.nodes.constrained.push_back(0);
+    return n;
+  }
+  CurveIndex curve(std::vector<double> x, std::vector<double> y) {
+    Curve c;
+    c.x = std::move(x);
+    c.y = std::move(y);
+    model.curves.push_back(c);
+    return static_cast<CurveIndex>(model.curves.size()) - 1;
+  }
+  void size_state(double mass = 2.0, double inertia = 0.5) {
+    state.nodes.resize(model.nodes.size());
+    state.nodes.x = model.nodes.x;
+    state.nodes.mass.assign(model.nodes.size(), mass);
+    state.nodes.inertia.assign(model.nodes.size(), inertia);
+    state.bodies.of_part.assign(model.parts.size(), none);
+  }
+  BodyIndex body(double mass, const Vec3& inertia, const Vec3& center) {
+    const auto b = static_cast<BodyIndex>(state.bodies.info.size());
+    BodyInfo info;
+    info.mass = mass;
+    info.principal_inertia = inertia;
+    state.bodies.info.push_back(info);
+    BodyMotion motion;
+    motion.center = center;
+    state.bodies.motion.push_back(motion);
+    state.bodies.force.emplace_back();
+    state.bodies.moment.emplace_back();
+    return b;
+  }
+  void clear_forces() {
+    for (auto* f : {&state.nodes.force, &state.nodes.moment, &state.bodies.force, &state.bodies.moment}) {
+      std::fill(f->begin(), f->end(), Vec3{});
+    }
+  }
+  void step(LoadSystem& loads, double dt) {
+    state.clock.dt = dt;
+    clear_forces();
+    loads.apply(model, state);
+    for (std::size_t n = 0; n < state.nodes.x.size(); ++n) {
+      state.nodes.v[n] += state.nodes.force[n] * (state.clock.kick() / state.nodes.mass[n]);
+      state.nodes.omega[n] += state.nodes.moment[n] * (state.clock.kick() / state.nodes.inertia[n]);
+    }
+    loads.constrain_velocities(model, state);
+    loads.account(model, state);
+    for (std::size_t n = 0; n < state.nodes.x.size(); ++n) state.nodes.x[n] += state.nodes.v[n] * dt;
+    state.clock.time += dt;
+    state.clock.dt_previous = dt;
+    ++state.clock.cycle;
+  }
+  double kinetic_energy_after_kick() const {
+    double energy = 0;
+    for (std::size_t n = 0; n < state.nodes.x.size(); ++n) {
+      energy += 0.5 * state.nodes.mass[n] * dot(state.nodes.v[n], state.nodes.v[n]);
+    }
+    return energy;
+  }
+};
+
+}  // namespace kardan
