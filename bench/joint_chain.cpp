@@ -73,7 +73,8 @@ Figures measure(int rods, JointKind kind, JointHolding holding, double seconds) 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto [json, quick] = bench::Options(argc, argv);
+  const kardan::bench::Options options(argc, argv);
+  const bool json = options.json, quick = options.quick;
   if (!json) fmt::print("{:<12} {:<8} {:>7} {:>16} {:>14} {:>14}\n", "joint", "held", "rods", "ns/joint-step", "separation m", "energy drift");
   for (const auto kind : {JointKind::spherical, JointKind::revolute})
     for (const auto holding : {JointHolding::exact, JointHolding::penalty})

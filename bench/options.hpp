@@ -1,18 +1,22 @@
-// The options every bench takes: --json (one object a row), --quick (smaller problem, fewer repetitions).
+// The options every bench takes: --json (one object a row), --quick (smaller problem, fewer repetitions), --csv FILE (rows as a table
+// for a spreadsheet, where the bench has rows).
 #pragma once
 
 #include <cstring>
 #include <ctime>
+#include <string>
 
 namespace kardan::bench {
 
 struct Options {
   bool json = false, quick = false;
+  std::string csv;
 
   Options(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
       json |= std::strcmp(argv[i], "--json") == 0;
       quick |= std::strcmp(argv[i], "--quick") == 0;
+      if (std::strcmp(argv[i], "--csv") == 0 && i + 1 < argc) csv = argv[++i];
     }
   }
 };

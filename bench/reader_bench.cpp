@@ -101,7 +101,8 @@ bool measure(const fs::path& path, const char* label, std::size_t expected_nodes
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto [json, quick] = kardan::bench::Options(argc, argv);
+  const kardan::bench::Options options(argc, argv);
+  const bool json = options.json, quick = options.quick;
   const fs::path folder = fs::temp_directory_path() / fmt::format("kardan_reader_bench_{}", std::rand());
   fs::create_directories(folder);
   const int columns = quick ? 300 : 1200, rows = 1000;

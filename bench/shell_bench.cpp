@@ -1,31 +1,58 @@
-// Speed of the shell kernel: nanoseconds per element-cycle of ElementSystem::internal_forces on a dished plate.
-// usage: kardan_bench_shell [--json] [--quick]
+// Speed of Belytschko-Tsay shells in the whole step: a slightly wavy plate that is stretched along x at a constant rate, its other
+// two edges held in the plane, so that the strain is nearly even and every point of the yielding one yields in every cycle.
+// usage: kardan_bench_shell [--json] [--quick] [--csv FILE]
 #include <cmath>
-#include <cstdio>
+#include <utility>
 
-#include "kardan/base/isa.hpp"
-#include "kardan/elements/element_system.hpp"
-#include "options.hpp"
+#include "step_bench.hpp"
 
 namespace {
 
-kardan::Model plate(int side, int points) {
-  using namespace kardan;
+using namespace kardan;
+
+constexpr double size = 5.0;          ///< mm; units kg, mm, ms, kN
+constexpr double stretching = 0.024;  ///< 1/ms: 2e-5 of strain a cycle
+
+void add_supports(Model& model, int side) {
+  Curve constant;
+  constant.x = {0, 1};
+  constant.y = {1, 1};
+  model.curves.push_back(constant);
+  PrescribedMotion pull;
+  pull.dof = 1;
+  pull.curve = 0;
+  pull.scale = stretching * size * side;
+  for (int j = 0; j <= side; ++j) {
+    model.nodes.constrained[static_cast<std::size_t>(j * (side + 1))] |= dof_x;
+    pull.nodes.push_back(j * (side + 1) + side);
+    model.nodes.constrained[static_cast<std::size_t>(j)] |= dof_y;
+    model.nodes.constrained[static_cast<std::size_t>(side * (side + 1) + j)] |= dof_y;
+  }
+  model.prescribed_motions.push_back(pull);
+  for (int i = 0; i <= side; ++i) {
+    InitialVelocity v;
+    v.velocity = {stretching * size * i, 0, 0};
+    for (int j = 0; j <= side; ++j) v.nodes.push_back(j * (side + 1) + i);
+    model.initial_velocities.push_back(v);
+  }
+}
+
+Model plate(int side) {
   Model model;
   for (int j = 0; j <= side; ++j) {
     for (int i = 0; i <= side; ++i) {
+      const bool edge = i == 0 || j == 0 || i == side || j == side;
+      const double wave = edge ? 0.0 : 0.3 * std::sin(0.7 * j + 0.3 * i);
       model.nodes.id.push_back(j * (side + 1) + i + 1);
-      model.nodes.x.push_back({5.0 * i + 0.3 * std::sin(0.7 * j), 5.0 * j + 0.2 * std::cos(0.3 * i), std::sin(0.01 * i)});
+      model.nodes.x.push_back({size * i + wave, size * j - wave, 0.1 * std::sin(0.01 * i)});
       model.nodes.constrained.push_back(0);
     }
   }
   Section section;
   section.shell.thickness = {1.2, 1.2, 1.2, 1.2};
-  section.shell.nip = points;
+  section.shell.nip = 3;
   model.sections.push_back(section);
-  Material material;
-  material.law = ElasticMaterial{7.8e-6, 210, 0.3, 0, 0};
-  model.materials.push_back(material);
+  model.materials.emplace_back();
   Part part;
   part.id = 1;
   part.section = part.material = 0;
@@ -38,67 +65,44 @@ kardan::Model plate(int side, int points) {
       model.shells.nodes.push_back({n, n + 1, n + side + 2, n + side + 1});
     }
   }
+  add_supports(model, side);
+  model.control.termination.end_time = 1e6;
   return model;
 }
 
-}  // namespace
-
-namespace {
-
-struct Case {
-  const char* name;
-  kardan::Model model;
-};
-
-/// One row. The plate is stretched evenly at first, so that every point of the plastic one yields in every cycle that is timed.
-void measure(const Case& c, int cycles, bool json) {
-  using namespace kardan;
-  State state;
-  state.nodes.resize(c.model.nodes.size());
-  state.nodes.x = c.model.nodes.x;
-  Diagnostics diagnostics;
-  ElementSystem elements(c.model, state, diagnostics);
-  for (std::size_t n = 0; n < state.nodes.v.size(); ++n) {
-    const Vec3& x = state.nodes.x[n];
-    state.nodes.v[n] = Vec3{2e-5 * x.x + 1e-5 * x.y, -5e-6 * x.y + 1e-5 * std::sin(0.05 * x.y), 1e-4 * std::sin(0.02 * x.x + 0.01 * x.y)};
-  }
-  elements.internal_forces(c.model, state);
-  state.clock.dt_previous = 1.0;
-  for (int i = 0; i < 40; ++i) elements.internal_forces(c.model, state);
-  const double start = bench::thread_seconds();
-  for (int i = 0; i < cycles; ++i) elements.internal_forces(c.model, state);
-  const double seconds = bench::thread_seconds() - start;
-  const std::size_t shells = c.model.shells.size();
-  const double ns = 1e9 * seconds / cycles / static_cast<double>(shells);
-  if (json) {
-    std::printf("{\"case\":\"%s\",\"isa\":\"x86-64-v%d\",\"threads\":1,\"elements\":%zu,\"ns_per_element_cycle\":%.1f}\n", c.name,
-                kernel_level(), shells, ns);
-  } else {
-    std::printf("%-34s %zu shells, 3 points, x86-64-v%d, 1 thread, %d cycles: %.1f ns per element-cycle\n", c.name, shells,
-                kernel_level(), cycles, ns);
-  }
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  using namespace kardan;
-  const auto [json, quick] = bench::Options(argc, argv);
-  const int side = quick ? 160 : 320, cycles = quick ? 40 : 200;
-  Case elastic{"shell", plate(side, 3)};
-  Case plastic{"shell_plastic", elastic.model};
+PiecewisePlasticMaterial steel(double yield) {
   PiecewisePlasticMaterial m;
   m.density = 7.8e-6;
   m.youngs_modulus = 210;
   m.poissons_ratio = 0.3;
   m.points = 8;
   m.strain = {0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0};
-  m.stress = {10, 11, 12, 13, 14, 15, 16, 17};
-  plastic.model.materials[0].law = m;
-  Case idle = plastic;
-  idle.name = "shell_plastic_law_elastic";
-  for (double& stress : std::get<PiecewisePlasticMaterial>(plastic.model.materials[0].law).stress) stress *= 0.005;
-  measure(elastic, cycles, json);
-  measure(idle, cycles, json);
-  measure(plastic, cycles, json);
+  for (std::size_t i = 0; i < 8; ++i) m.stress[i] = yield * (1 + 0.1 * static_cast<double>(i));
+  return m;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bench::Options options(argc, argv);
+  bench::StepReport report(options);
+  for (const int side : {320, 1000}) {
+    if (options.quick && side > 320) break;
+    bench::StepCase c;
+    c.name = "shell";
+    c.elements = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    c.model = plate(side);
+    const double seconds = options.quick ? 1.0 : 4.0;
+    const std::pair<const char*, decltype(Material::law)> laws[] = {{"MAT_001", ElasticMaterial{7.8e-6, 210, 0.3, 0, 0}},
+                                                                    {"MAT_024 elastic", steel(10)},
+                                                                    {"MAT_024 yielding", steel(0.05)}};
+    for (const auto& [variant, law] : laws) {
+      c.variant = variant;
+      c.model.materials[0].law = law;
+      const double history = 8.0 * (3 * (std::holds_alternative<ElasticMaterial>(law) ? 5 : 7) + 6);
+      c.work.bytes = 2 * history + 12 + 1.09 * (72 + 2 * 48 + 4) + (2 * 72 + 2 * 48 + 20);
+      c.work.flops = 1000;
+      report.add(c, seconds);
+    }
+  }
 }

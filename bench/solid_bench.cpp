@@ -71,7 +71,8 @@ double nanoseconds(const kardan::Model& model, int cycles) {
 
 int main(int argc, char** argv) {
   using namespace kardan;
-  const auto [json, quick] = bench::Options(argc, argv);
+  const bench::Options options(argc, argv);
+  const bool json = options.json, quick = options.quick;
   omp_set_num_threads(1);  // the clock is that of one thread
   const int side = quick ? 28 : 46, cycles = quick ? 40 : 200;
   Model model = block(side);

@@ -110,6 +110,7 @@ struct Bench {
     std::fill(state.nodes.force.begin(), state.nodes.force.end(), Vec3{});
     std::fill(state.nodes.moment.begin(), state.nodes.moment.end(), Vec3{});
     elements->internal_forces(model, state);
+    elements->add_forces(state, 0, static_cast<NodeIndex>(model.nodes.size()));
   }
   /// One cycle; `hold` may change the kicked velocities, `load` the forces.
   template <class Load, class Hold>

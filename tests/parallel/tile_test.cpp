@@ -100,7 +100,9 @@ TEST(Slots, SumToTheNodes) {
     }
   }
   std::vector<Vec3> force(grid.x.size(), Vec3{10, 0, 0}), moment(grid.x.size());
-  slots.add_to(force, moment);
+  const auto half = static_cast<NodeIndex>(force.size() / 2);
+  slots.add_to(force, moment, 0, half);
+  slots.add_to(force, moment, half, static_cast<NodeIndex>(force.size()));
   std::vector<int> valence(grid.x.size(), 0);
   for (const NodeIndex n : grid.nodes) ++valence[n];
   for (std::size_t n = 0; n < force.size(); ++n) {

@@ -76,6 +76,11 @@ void ElementSystem::internal_forces(const Model& model, State& state) {
   impl_->discretes.internal_forces(model, state);
 }
 
+void ElementSystem::add_forces(State& state, NodeIndex begin, NodeIndex end) const {
+  impl_->shells.add_forces(state, begin, end);
+  impl_->solids.add_forces(state, begin, end);
+}
+
 double ElementSystem::stable_time_step() const { return governing().time_step; }
 
 Governing ElementSystem::governing() const {

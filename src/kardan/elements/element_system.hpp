@@ -23,10 +23,15 @@ class ElementSystem {
   ElementSystem(ElementSystem&&) noexcept;
   ElementSystem& operator=(ElementSystem&&) noexcept;
 
-  /// At t_n, with velocities at t_{n-1/2} and state.clock.dt_previous: stresses and spring forces are brought to t_n, and
-  /// the forces that the elements exert ON the nodes are added to state.nodes.force and .moment. Call once a cycle.
+  /// At t_n, with velocities at t_{n-1/2} and state.clock.dt_previous: stresses and spring forces are brought to t_n. The forces
+  /// that springs exert ON the nodes are added to state.nodes.force and .moment; those of tiles wait for add_forces(). Call once a
+  /// cycle.
   /// @throws RunError naming the element whose area vanished or whose force is not finite.
   void internal_forces(const Model& model, State& state);
+
+  /// Adds the forces of the tiles on the nodes begin <= n < end to state.nodes.force and .moment. Several threads may do so for
+  /// nodes of their own.
+  void add_forces(State& state, NodeIndex begin, NodeIndex end) const;
 
   /// Largest stable step at t_n of the deformable and discrete elements, without TSSFAC; +infinity if there are none.
   /// Valid after internal_forces().

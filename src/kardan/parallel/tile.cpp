@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "kardan/base/diagnostics.hpp"
 
@@ -56,6 +57,22 @@ std::vector<Index> order_elements(const TileInput& in) {
   return order;
 }
 
+/// The nodes of a tile's elements, ascending, behind those of the tiles before it: gathering them and summing their slots then goes
+/// through memory in runs. `local` gets their numbers in the tile.
+void number_nodes(const TileInput& in, std::span<const Index> elements, Tile& tile, TileMesh& mesh, std::vector<std::int32_t>& local) {
+  for (const Index e : elements) {
+    for (std::size_t a = 0; a < in.nodes_per_element; ++a) {
+      const NodeIndex node = in.nodes[e * in.nodes_per_element + a];
+      if (local[node] != none) continue;
+      local[node] = 0;
+      mesh.node.push_back(node);
+    }
+  }
+  std::sort(mesh.node.begin() + static_cast<std::ptrdiff_t>(tile.first_node), mesh.node.end());
+  tile.nodes = mesh.node.size() - tile.first_node;
+  for (std::size_t k = 0; k < tile.nodes; ++k) local[mesh.node[tile.first_node + k]] = static_cast<std::int32_t>(k);
+}
+
 }  // namespace
 
 std::uint64_t hilbert_key(std::uint32_t ux, std::uint32_t uy, std::uint32_t uz) {
@@ -102,6 +119,7 @@ TileMesh cut_tiles(const TileInput& in, std::size_t tile_size) {
     tile.first_block = mesh.element.size() / block_lanes;
     tile.blocks = (tile.elements + block_lanes - 1) / block_lanes;
     tile.first_node = mesh.node.size();
+    number_nodes(in, std::span(order).subspan(begin, tile.elements), tile, mesh, local);
     for (std::size_t b = 0; b < tile.blocks; ++b) {
       const std::size_t base = mesh.connectivity.size();
       mesh.connectivity.resize(base + n * block_lanes);
@@ -109,16 +127,10 @@ TileMesh cut_tiles(const TileInput& in, std::size_t tile_size) {
         const Index e = order[std::min(begin + b * block_lanes + l, end - 1)];
         mesh.element.push_back(e);
         for (std::size_t a = 0; a < n; ++a) {
-          const NodeIndex node = in.nodes[e * n + a];
-          if (local[node] == none) {
-            local[node] = static_cast<std::int32_t>(mesh.node.size() - tile.first_node);
-            mesh.node.push_back(node);
-          }
-          mesh.connectivity[base + a * block_lanes + l] = static_cast<std::uint16_t>(local[node]);
+          mesh.connectivity[base + a * block_lanes + l] = static_cast<std::uint16_t>(local[in.nodes[e * n + a]]);
         }
       }
     }
-    tile.nodes = mesh.node.size() - tile.first_node;
     for (std::size_t k = tile.first_node; k < mesh.node.size(); ++k) local[mesh.node[k]] = none;
     mesh.tiles.push_back(tile);
     begin = end;
@@ -128,29 +140,27 @@ TileMesh cut_tiles(const TileInput& in, std::size_t tile_size) {
 
 SlotSum::SlotSum(const TileMesh& mesh, std::size_t node_count, std::size_t components)
     : components_(components), values_(mesh.node.size() * components, 0.0) {
-  std::vector<std::size_t> count(node_count + 1, 0);
-  for (const NodeIndex n : mesh.node) ++count[n];
+  KARDAN_ASSERT(mesh.node.size() < std::numeric_limits<std::uint32_t>::max());
+  std::vector<std::uint32_t> next(node_count, 0);
+  for (const NodeIndex n : mesh.node) ++next[n];
+  std::uint32_t first = 0;
   for (std::size_t n = 0; n < node_count; ++n) {
-    if (count[n] > 0) nodes_.push_back(static_cast<NodeIndex>(n));
+    if (next[n] == 0) continue;
+    nodes_.push_back(static_cast<NodeIndex>(n));
+    first_.push_back(first);
+    first += std::exchange(next[n], first);
   }
-  first_.reserve(nodes_.size() + 1);
-  first_.push_back(0);
-  std::vector<std::size_t> next(node_count, 0);
-  for (const NodeIndex n : nodes_) {
-    next[n] = first_.back();
-    first_.push_back(first_.back() + count[n]);
-  }
+  first_.push_back(first);
   slot_.resize(mesh.node.size());
   for (std::size_t k = 0; k < mesh.node.size(); ++k) slot_[next[mesh.node[k]]++] = static_cast<std::uint32_t>(k);
 }
 
-void SlotSum::add_to(std::vector<Vec3>& force, std::vector<Vec3>& moment) const {
-  const auto count = static_cast<std::ptrdiff_t>(nodes_.size());
+void SlotSum::add_to(std::vector<Vec3>& force, std::vector<Vec3>& moment, NodeIndex begin, NodeIndex end) const {
   const bool with_moments = components_ == 6;
-#pragma omp parallel for schedule(static) if (count > 4096)  // starting the threads costs microseconds
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
+  auto i = static_cast<std::size_t>(std::lower_bound(nodes_.begin(), nodes_.end(), begin) - nodes_.begin());
+  for (; i < nodes_.size() && nodes_[i] < end; ++i) {
     Vec3 f, m;
-    for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
+    for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
       const double* s = values_.data() + slot_[k] * components_;
       f += Vec3{s[0], s[1], s[2]};
       if (with_moments) m += Vec3{s[3], s[4], s[5]};

@@ -30,7 +30,7 @@ struct TileMesh {
   std::vector<Tile> tiles;
   std::vector<std::uint16_t> connectivity;  ///< [block][node of the element][lane] -> local node of the tile
   std::vector<Index> element;               ///< [block][lane] -> element of the model
-  std::vector<NodeIndex> node;              ///< local nodes of all tiles, tile by tile -> node of the model
+  std::vector<NodeIndex> node;              ///< local nodes of all tiles, tile by tile, ascending in each -> node of the model
 
   bool empty() const { return tiles.empty(); }
 };
@@ -56,8 +56,8 @@ class SlotSum {
 
   /// Slots of a tile: [local node][component], overwritten by the tile each cycle.
   double* slots(const Tile& tile) { return values_.data() + tile.first_node * components_; }
-  /// Adds the sums to the nodes' forces (and moments).
-  void add_to(std::vector<Vec3>& force, std::vector<Vec3>& moment) const;
+  /// Adds the sums to the forces (and moments) of the nodes begin <= n < end.
+  void add_to(std::vector<Vec3>& force, std::vector<Vec3>& moment, NodeIndex begin, NodeIndex end) const;
   /// Nodes that have slots, ascending.
   const std::vector<NodeIndex>& nodes() const { return nodes_; }
 
@@ -65,7 +65,7 @@ class SlotSum {
   std::size_t components_;
   std::vector<double> values_;
   std::vector<NodeIndex> nodes_;
-  std::vector<std::size_t> first_;   ///< of each node in slot_, and the end
+  std::vector<std::uint32_t> first_; ///< of each node in slot_, and the end
   std::vector<std::uint32_t> slot_;  ///< slots by node, in the order of the tiles
 };
 

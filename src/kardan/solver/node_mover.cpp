@@ -2,101 +2,158 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
+#include <cstdint>
+#include <span>
+
+#include "kardan/elements/element_system.hpp"
 
 namespace kardan {
 
 namespace {
 
-/// Fewer nodes than this are moved by one thread: waking the others costs more than it saves.
-constexpr std::size_t parallel_threshold = 8192;
+constexpr std::size_t chunk_nodes = 1024;  ///< forces, velocities and slots of a chunk: some 200 kB
+/// Fewer chunks than this are moved by one thread: waking the others costs more than it saves.
+constexpr std::size_t parallel_threshold = 8;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// f(k) for k < count, independent of one another. Small counts never enter a parallel region: that alone takes longer
+/// Parts of the elements at each node, one entry an element, in lists by node.
+class PartsOfNodes {
+ public:
+  PartsOfNodes(const Model& model, std::size_t nodes) : first_(nodes + 1, 0) {
+    each(model, [&](std::size_t node, PartIndex) { ++first_[node + 1]; });
+    for (std::size_t n = 0; n < nodes; ++n) first_[n + 1] += first_[n];
+    parts_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    each(model, [&](std::size_t node, PartIndex part) { parts_[next[node]++] = part; });
+  }
+  std::span<PartIndex> of(NodeIndex node) {
+    return {parts_.data() + first_[at(node)], first_[at(node) + 1] - first_[at(node)]};
+  }
+
+ private:
+  template <class F>
+  static void each(const Model& model, F&& f) {
+    const auto block = [&f](const auto& elements, std::size_t nodes_used) {
+      for (std::size_t e = 0; e < elements.size(); ++e)
+        for (std::size_t k = 0; k < nodes_used; ++k)
+          if (const NodeIndex node = elements.nodes[e][k]; node != none) f(at(node), elements.part[e]);
+    };
+    block(model.shells, 4);
+    block(model.solids, 8);
+    block(model.beams, 2);
+  }
+
+  std::vector<std::uint32_t> first_;
+  std::vector<PartIndex> parts_;
+};
+
+}  // namespace
+
+/// f(chunk) for all chunks, independent of one another. Small models never enter a parallel region: that alone takes longer
 /// than the step of a small mechanism.
 template <class F>
-void for_each_index(std::size_t count, F&& f) {
-  if (count <= parallel_threshold) {
-    for (std::size_t k = 0; k < count; ++k) f(k);
+void NodeMover::for_each_chunk(F&& f) const {
+  if (chunks_.size() <= parallel_threshold) {
+    for (const Chunk& chunk : chunks_) f(chunk);
     return;
   }
 #pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < count; ++k) f(k);
+  for (std::size_t c = 0; c < chunks_.size(); ++c) f(chunks_[c]);
 }
-
-template <class Block>
-void count_parts(const Block& block, std::size_t nodes_used, std::vector<std::map<PartIndex, int>>& parts_of) {
-  for (std::size_t e = 0; e < block.size(); ++e)
-    for (std::size_t k = 0; k < nodes_used; ++k)
-      if (const NodeIndex node = block.nodes[e][k]; node != none) ++parts_of[at(node)][block.part[e]];
-}
-
-}  // namespace
 
 NodeMover::NodeMover(const Model& model, State& state) {
   NodeState& nodes = state.nodes;
   for (std::size_t i = 0; i < nodes.x.size(); ++i) {
+    if (i % chunk_nodes == 0) {
+      const std::size_t end = std::min(i + chunk_nodes, nodes.x.size());
+      chunks_.push_back({static_cast<NodeIndex>(i), static_cast<NodeIndex>(end), free_.size(), free_.size()});
+    }
     if (nodes.body[i] != none) continue;
     if (nodes.mass[i] > 0) {
       free_.push_back(static_cast<NodeIndex>(i));
+      inverse_mass_.push_back(1 / nodes.mass[i]);
+      inverse_inertia_.push_back(nodes.inertia[i] > 0 ? 1 / nodes.inertia[i] : 0.0);
+      chunks_.back().end_free = free_.size();
     } else {
       nodes.v[i] = nodes.omega[i] = {};
       unattached_.push_back(static_cast<NodeIndex>(i));
     }
   }
-  v_before_.resize(free_.size());
-  omega_before_.resize(free_.size());
   find_parts(model, state);
 }
 
 void NodeMover::find_parts(const Model& model, const State& state) {
-  share_begin_.assign(free_.size() + 1, 0);
+  part_.assign(free_.size(), none);
   if (free_.empty()) return;
-  std::vector<std::map<PartIndex, int>> parts_of(state.nodes.x.size());
-  count_parts(model.shells, 4, parts_of);
-  count_parts(model.solids, 8, parts_of);
-  count_parts(model.beams, 2, parts_of);
+  PartsOfNodes parts_of(model, state.nodes.x.size());
   for (std::size_t k = 0; k < free_.size(); ++k) {
-    const auto& parts = parts_of[at(free_[k])];
-    int elements = 0;
-    for (const auto& [part, count] : parts) elements += count;
-    for (const auto& [part, count] : parts) shares_.push_back({part, static_cast<double>(count) / elements});
-    share_begin_[k + 1] = shares_.size();
+    const std::span<PartIndex> parts = parts_of.of(free_[k]);
+    if (parts.empty()) continue;
+    std::sort(parts.begin(), parts.end());
+    if (parts.front() == parts.back()) {
+      part_[k] = parts.front();
+      continue;
+    }
+    shared_.push_back({k, shares_.size()});
+    for (auto i = parts.begin(); i != parts.end();) {
+      const auto next = std::upper_bound(i, parts.end(), *i);
+      shares_.push_back({*i, static_cast<double>(next - i) / static_cast<double>(parts.size())});
+      i = next;
+    }
   }
+  shared_.push_back({free_.size(), shares_.size()});
 }
 
-void NodeMover::kick(const Model& model, State& state) {
+void NodeMover::kick(const Model& model, State& state, const ElementSystem& elements, bool looked_at) {
+  std::atomic<bool> good{true};
+  for_each_chunk([&](const Chunk& chunk) {
+    elements.add_forces(state, chunk.begin, chunk.end);
+    if (!kick_chunk(chunk, state, looked_at)) good.store(false, std::memory_order_relaxed);
+  });
+  if (!good) not_finite(model, state);
+}
+
+/// @return false if a velocity would not be finite.
+bool NodeMover::kick_chunk(const Chunk& chunk, State& state, bool looked_at) const {
   NodeState& nodes = state.nodes;
   const double kick = state.clock.kick();
-  std::atomic<bool> bad{false};
-  for_each_index(free_.size(), [&](std::size_t k) {
+  bool good = true;
+  for (std::size_t k = chunk.first_free; k < chunk.end_free; ++k) {
     const std::size_t i = at(free_[k]);
-    v_before_[k] = nodes.v[i];
-    omega_before_[k] = nodes.omega[i];
-    nodes.v[i] += nodes.force[i] * (kick / nodes.mass[i]);
-    if (nodes.inertia[i] > 0) nodes.omega[i] += nodes.moment[i] * (kick / nodes.inertia[i]);
-    if (!std::isfinite(dot(nodes.v[i], nodes.v[i]) + dot(nodes.omega[i], nodes.omega[i])))
-      bad.store(true, std::memory_order_relaxed);
-  });
-  if (bad) not_finite(model, state);
+    const Vec3 v = nodes.v[i] + nodes.force[i] * (kick * inverse_mass_[k]);
+    const Vec3 omega = nodes.omega[i] + nodes.moment[i] * (kick * inverse_inertia_[k]);
+    if (looked_at) {
+      nodes.v_now[i] = nodes.v[i];
+      nodes.omega_now[i] = nodes.omega[i];
+    }
+    if (!std::isfinite(dot(v, v) + dot(omega, omega))) {
+      good = false;
+      continue;
+    }
+    nodes.v[i] = v;
+    nodes.omega[i] = omega;
+    if (!looked_at) nodes.force[i] = nodes.moment[i] = {};
+  }
+  return good;
 }
 
-void NodeMover::not_finite(const Model& model, State& state) {
-  NodeState& nodes = state.nodes;
+void NodeMover::not_finite(const Model& model, const State& state) const {
+  const NodeState& nodes = state.nodes;
+  const double kick = state.clock.kick();
   NodeIndex first = none;
   std::size_t count = 0;
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const std::size_t i = at(free_[k]);
-    if (!std::isfinite(dot(nodes.v[i], nodes.v[i]) + dot(nodes.omega[i], nodes.omega[i]))) {
-      ++count;
-      if (first == none) first = free_[k];
-    }
-    nodes.v[i] = v_before_[k];
-    nodes.omega[i] = omega_before_[k];
+    const Vec3 v = nodes.v[i] + nodes.force[i] * (kick * inverse_mass_[k]);
+    const Vec3 omega = nodes.omega[i] + nodes.moment[i] * (kick * inverse_inertia_[k]);
+    if (std::isfinite(dot(v, v) + dot(omega, omega))) continue;
+    if (count++ == 0) first = free_[k];
   }
+  KARDAN_ASSERT(first != none);
   const Vec3& x = nodes.x[at(first)];
   const Vec3& force = nodes.force[at(first)];
   throw RunError(fmt::format(
@@ -108,35 +165,51 @@ void NodeMover::not_finite(const Model& model, State& state) {
 void NodeMover::settle(State& state) const {
   NodeState& nodes = state.nodes;
   const double kick = state.clock.kick(), share = state.clock.share_before();
-  for_each_index(free_.size(), [&](std::size_t k) {
-    const std::size_t i = at(free_[k]);
-    const Vec3& v = v_before_[k];
-    const Vec3& omega = omega_before_[k];
-    nodes.v_now[i] = v + (nodes.v[i] - v) * share;
-    nodes.a[i] = (nodes.v[i] - v) / kick;
-    nodes.omega_now[i] = omega + (nodes.omega[i] - omega) * share;
-    nodes.alpha[i] = (nodes.omega[i] - omega) / kick;
+  for_each_chunk([&](const Chunk& chunk) {
+    for (std::size_t k = chunk.first_free; k < chunk.end_free; ++k) {
+      const std::size_t i = at(free_[k]);
+      const Vec3 change = nodes.v[i] - nodes.v_now[i], turn = nodes.omega[i] - nodes.omega_now[i];
+      nodes.v_now[i] += change * share;
+      nodes.a[i] = change / kick;
+      nodes.omega_now[i] += turn * share;
+      nodes.alpha[i] = turn / kick;
+    }
   });
   for (NodeIndex node : unattached_) nodes.v_now[at(node)] = nodes.v[at(node)];
+}
+
+void NodeMover::settle_broken(State& state) const {
+  NodeState& nodes = state.nodes;
+  for (const NodeIndex node : free_) {
+    nodes.v_now[at(node)] = nodes.v[at(node)];
+    nodes.omega_now[at(node)] = nodes.omega[at(node)];
+    nodes.a[at(node)] = nodes.alpha[at(node)] = {};
+  }
 }
 
 void NodeMover::drift(State& state) const {
   NodeState& nodes = state.nodes;
   const double dt = state.clock.dt;
-  for_each_index(free_.size(), [&](std::size_t k) { nodes.x[at(free_[k])] += nodes.v[at(free_[k])] * dt; });
+  for_each_chunk([&](const Chunk& chunk) {
+    for (std::size_t k = chunk.first_free; k < chunk.end_free; ++k) nodes.x[at(free_[k])] += nodes.v[at(free_[k])] * dt;
+  });
   for (NodeIndex node : unattached_) nodes.x[at(node)] += nodes.v[at(node)] * dt;
 }
 
 void NodeMover::account(State& state) const {
   const NodeState& nodes = state.nodes;
   EnergyLedger& energy = state.energy;
+  auto shared = shared_.begin();
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const std::size_t i = at(free_[k]);
     const double e = 0.5 * (nodes.mass[i] * dot(nodes.v_now[i], nodes.v_now[i]) +
                             nodes.inertia[i] * dot(nodes.omega_now[i], nodes.omega_now[i]));
     energy.kinetic += e;
-    for (std::size_t s = share_begin_[k]; s < share_begin_[k + 1]; ++s)
+    if (part_[k] != none) energy.part_kinetic[at(part_[k])] += e;
+    if (shared->free != k) continue;
+    for (std::size_t s = shared->first_share; s < (shared + 1)->first_share; ++s)
       energy.part_kinetic[at(shares_[s].part)] += shares_[s].fraction * e;
+    ++shared;
   }
 }
 

@@ -1,4 +1,7 @@
 // Motion of the nodes that belong to no rigid body: the stage `nodes` of the step.
+//
+// Nodes are visited in chunks that fit a core's cache: a chunk's forces are summed, used and set back to zero before the next one's.
+// In cycles that nobody looks at nothing else is written, because on large models the bytes are the cost.
 #pragma once
 
 #include <cstddef>
@@ -9,34 +12,55 @@
 
 namespace kardan {
 
+class ElementSystem;
+
 class NodeMover {
  public:
   /// Sorts the nodes: free ones have mass and no body; nodes without mass and body stay where they are (orientation
   /// nodes, leftovers), unless a prescribed motion moves them. `state.nodes.mass` and `.body` must be final.
   NodeMover(const Model& model, State& state);
 
-  /// Velocities of the free nodes to t_{n+1/2}: v += F/m kick, omega += M/I kick.
-  /// @throws RunError naming a node whose velocity is no longer finite; all nodes then have their velocities of before.
-  void kick(const Model& model, State& state);
-  /// After the velocities were constrained: v_now, a, omega_now and alpha at t_n.
+  /// Adds the elements' forces to those of all nodes; then velocities of the free nodes to t_{n+1/2}: v += F/m kick,
+  /// omega += M/I kick. In a cycle that is looked at the velocities of before are kept in v_now and omega_now for settle(), and
+  /// forces and moments stay; otherwise those of the free nodes are zero afterwards, ready for the next cycle.
+  /// @throws RunError naming a node whose velocity would no longer be finite; such nodes keep theirs of before.
+  void kick(const Model& model, State& state, const ElementSystem& elements, bool looked_at);
+  /// In a cycle that is looked at, after the velocities were constrained: v_now, a, omega_now and alpha at t_n.
   void settle(State& state) const;
+  /// After a cycle that broke: v_now and omega_now are the last velocities known, a and alpha zero.
+  void settle_broken(State& state) const;
   /// Positions to t_{n+1}.
   void drift(State& state) const;
-  /// Adds the kinetic energy of the free nodes at t_n to state.energy, in total and by part. Where parts share a node, its
-  /// energy is divided by the number of elements of each part there. Summed in the order of the nodes.
+  /// After settle(): adds the kinetic energy of the free nodes at t_n to state.energy, in total and by part. Where parts share a
+  /// node, its energy is divided by the number of elements of each part there. Summed in the order of the nodes.
   void account(State& state) const;
 
  private:
-  void find_parts(const Model& model, const State& state);
-  [[noreturn]] void not_finite(const Model& model, State& state);
-
+  /// Nodes of the model that are visited together, and the free ones among them.
+  struct Chunk {
+    NodeIndex begin = 0, end = 0;
+    std::size_t first_free = 0, end_free = 0;
+  };
   struct Share {
     PartIndex part;
     double fraction;
   };
-  std::vector<NodeIndex> free_, unattached_;
-  std::vector<Vec3> v_before_, omega_before_;  // by position in free_: velocities at t_{n-1/2}
-  std::vector<std::size_t> share_begin_;       // by position in free_, into shares_
+  /// Shares of a free node (by position in free_) that several parts have a hand in.
+  struct SharedNode {
+    std::size_t free = 0, first_share = 0;
+  };
+
+  template <class F>
+  void for_each_chunk(F&& f) const;
+  void find_parts(const Model& model, const State& state);
+  bool kick_chunk(const Chunk& chunk, State& state, bool looked_at) const;
+  [[noreturn]] void not_finite(const Model& model, const State& state) const;
+
+  std::vector<NodeIndex> free_, unattached_;                // ascending
+  std::vector<double> inverse_mass_, inverse_inertia_;      // by position in free_; 0 where there is no inertia
+  std::vector<Chunk> chunks_;
+  std::vector<PartIndex> part_;                             // by position in free_; none: no part, or several
+  std::vector<SharedNode> shared_;                          // ascending, and the end
   std::vector<Share> shares_;
 };
 

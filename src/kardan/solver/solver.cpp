@@ -71,8 +71,12 @@ void Solver::set_up(const SolverOptions& options, Diagnostics& diagnostics) {
   rigid_->set_initial_velocities(model_, state_, diagnostics);
   nodes_ = std::make_unique<NodeMover>(model_, state_);
 
-  for (std::size_t i = 0; i < state_.nodes.x.size(); ++i)
-    if (state_.nodes.body[i] == none || state_.nodes.needed[i]) summed_nodes_.push_back(static_cast<NodeIndex>(i));
+  for (std::size_t i = 0; i < state_.nodes.x.size(); ++i) {
+    const bool attached = state_.nodes.body[i] != none;
+    if (attached && !state_.nodes.needed[i]) continue;
+    summed_nodes_.push_back(static_cast<NodeIndex>(i));
+    if (attached || !(state_.nodes.mass[i] > 0)) summed_not_kicked_.push_back(static_cast<NodeIndex>(i));
+  }
   const std::int64_t deformable = count_deformable(model_, model_.shells) + count_deformable(model_, model_.solids) +
                                   count_deformable(model_, model_.beams);
   elements_processed_ = deformable + static_cast<std::int64_t>(model_.discretes.size());
@@ -117,20 +121,22 @@ bool Solver::step() {
     elements_->internal_forces(model_, state_);
     timers_.lap(Phase::elements);
     choose_time_step();
-    timers_.lap(Phase::time_step);
-    rigid_->kick(model_, state_);
-    timers_.lap(Phase::rigid);
-    nodes_->kick(model_, state_);
-    loads_->constrain_velocities(model_, state_);
-    nodes_->settle(state_);
-    timers_.lap(Phase::nodes);
     stop_ = reason_to_stop();
     find_due_observers();
+    timers_.lap(Phase::time_step);
+    nodes_->kick(model_, state_, *elements_, looked_at_);
+    timers_.lap(Phase::nodes);
+    rigid_->kick(model_, state_);
+    timers_.lap(Phase::rigid);
+    loads_->constrain_velocities(model_, state_);
+    if (looked_at_) nodes_->settle(state_);
+    timers_.lap(Phase::nodes);
     account();
     timers_.lap(Phase::ledger);
   } catch (const RunError&) {
     stop_ = StopReason::broken;
     find_due_observers();
+    nodes_->settle_broken(state_);
     notify();
     throw;
   }
@@ -146,7 +152,8 @@ bool Solver::step() {
 }
 
 void Solver::clear_forces() {
-  for (NodeIndex node : summed_nodes_)
+  // After a cycle that nobody looked at the free nodes have been cleared already.
+  for (NodeIndex node : looked_at_ ? summed_nodes_ : summed_not_kicked_)
     state_.nodes.force[static_cast<std::size_t>(node)] = state_.nodes.moment[static_cast<std::size_t>(node)] = {};
   for (std::vector<Vec3>* sums : {&state_.bodies.force, &state_.bodies.moment})
     std::fill(sums->begin(), sums->end(), Vec3{});
@@ -169,11 +176,10 @@ void Solver::account() {
   EnergyLedger& energy = state_.energy;
   const double end_energy = model_.control.termination.end_energy;
   // Work is summed every cycle; the energies at t_n only where somebody looks at them.
-  const bool looked_at = !due_.empty() || state_.clock.cycle == 0 || end_energy > 0 || stop_ != StopReason::running;
-  if (looked_at) energy.begin(model_.parts.size());
+  if (looked_at_) energy.begin(model_.parts.size());
   loads_->account(model_, state_);
+  if (!looked_at_) return;
   elements_->account(model_, state_);
-  if (!looked_at) return;
   rigid_->account(model_, state_);
   nodes_->account(state_);
   if (state_.clock.cycle == 0) energy.initial = energy.total();
@@ -199,6 +205,7 @@ void Solver::find_due_observers() {
   due_.clear();
   for (Observer* observer : observers_)
     if (now.last() || observer->due(state_, now)) due_.push_back(observer);
+  looked_at_ = !due_.empty() || state_.clock.cycle == 0 || now.last() || model_.control.termination.end_energy > 0;
 }
 
 void Solver::notify() {

@@ -95,10 +95,12 @@ class Solver {
   double first_dt_ = 0, end_time_ = 0;
   std::int64_t elements_processed_ = 0;
   std::vector<NodeIndex> summed_nodes_;  // nodes that receive forces: all but the idle nodes of bodies
+  std::vector<NodeIndex> summed_not_kicked_;  // those among them that belong to bodies or have no mass
   StopReason stop_ = StopReason::running;
   std::atomic<bool> stop_requested_{false};
   std::vector<Observer*> observers_;
   std::vector<Observer*> due_;  ///< those that look at this cycle
+  bool looked_at_ = true;       ///< somebody wants energies, or velocities at t_n, of this cycle
   PhaseTimers<Phase> timers_;
 };
 

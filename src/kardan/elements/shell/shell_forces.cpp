@@ -213,7 +213,6 @@ void ShellForces::internal_forces(const Model& model, State& state) {
       governing_.element = model.shells.id[mesh_.element[tile.first_block * block_lanes + o.governing]];
     }
   }
-  slots_.add_to(state.nodes.force, state.nodes.moment);
 }
 
 void ShellForces::report_broken(const Model& model, const State& state, const Tile& tile, std::size_t element) const {

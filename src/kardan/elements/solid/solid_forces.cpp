@@ -176,7 +176,6 @@ void SolidForces::internal_forces(const Model& model, State& state) {
       governing_.element = model.solids.id[mesh_.element[tile.first_block * block_lanes + o.governing]];
     }
   }
-  slots_.add_to(state.nodes.force, state.nodes.moment);
 }
 
 void SolidForces::report_broken(const Model& model, const State& state, const Tile& tile, std::size_t element) const {

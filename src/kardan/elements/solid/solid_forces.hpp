@@ -21,6 +21,10 @@ class SolidForces {
   /// Stresses to t_n and forces onto the nodes. @throws RunError naming a solid without volume or with a value that is
   /// not finite.
   void internal_forces(const Model& model, State& state);
+  /// Adds the forces of the cycle to the nodes begin <= n < end.
+  void add_forces(State& state, NodeIndex begin, NodeIndex end) const {
+    slots_.add_to(state.nodes.force, state.nodes.moment, begin, end);
+  }
   const Governing& governing() const { return governing_; }
   /// Adds the energies at t_n, by part.
   void add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const;
