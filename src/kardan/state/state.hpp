@@ -36,10 +36,10 @@ struct NodeState {
   std::vector<Vec3> x;               ///< positions at t_n                      (nodes.drift, rigid.drift)
   std::vector<Vec3> v;               ///< velocities at t_{n-1/2}, after the kick t_{n+1/2}
   std::vector<Vec3> omega;           ///< angular velocities, likewise
-  std::vector<Vec3> v_now;           ///< velocities at t_n, valid between kick and drift
+  std::vector<Vec3> v_now;           ///< velocities at t_n, valid between kick and drift of a cycle that an observer looks at
   std::vector<Vec3> a;               ///< accelerations at t_n, likewise
   std::vector<Vec3> omega_now, alpha;///< angular velocities and accelerations at t_n of deformable nodes, likewise (for output)
-  std::vector<Vec3> force;           ///< sum of all forces at t_n              (assembly)
+  std::vector<Vec3> force;           ///< sum of all forces at t_n              (nodes.kick; of free nodes valid like v_now)
   std::vector<Vec3> moment;          ///< sum of all moments at t_n
   std::vector<double> mass;          ///< lumped mass
   std::vector<double> inertia;       ///< lumped isotropic rotary inertia
