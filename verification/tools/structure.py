@@ -22,10 +22,17 @@ class Structure:
             t, r = self.held.get(n, ("", ""))
             self.held[n] = ("".join(sorted(set(t + translations))), "".join(sorted(set(r + rotations))))
 
+    def curve(self, number, points):
+        self.extra += ["*DEFINE_CURVE", str(number)] + [card(*p) for p in points] + [card(1e6, points[-1][1])]
+
+    def step(self):
+        """Curve 1: 1 from t = 0 on."""
+        self.curve(1, [(0, 1.0)])
+
     def forces(self, dof, of_node):
-        """Forces from t = 0 on: {node: force} in the direction dof (1, 2, 3)."""
-        self.extra += ["$ curve 1: from t = 0 on", "*DEFINE_CURVE", "1", "0,1", "1e6,1", "*LOAD_NODE_POINT"]
-        self.extra += [card(n, dof, 1, force) for n, force in sorted(of_node.items())]
+        """Forces that follow curve 1: {node: force} in the direction dof (1, 2, 3)."""
+        self.extra += ["$ node, direction, curve, factor", "*LOAD_NODE_POINT"]
+        self.extra += [card(n, dof, 1, force) for n, force in sorted(of_node.items()) if force]
 
     def text(self, *lines):
         self.extra += list(lines)
