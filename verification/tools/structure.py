@@ -34,6 +34,12 @@ class Structure:
         self.extra += ["$ node, direction, curve, factor", "*LOAD_NODE_POINT"]
         self.extra += [card(n, dof, 1, force) for n, force in sorted(of_node.items()) if force]
 
+    def pressure(self, value):
+        """Pressure from t = 0 on, positive along the normals of the shells (which is negative in *LOAD_SHELL)."""
+        self.step()
+        self.extra += ["*SET_SHELL_GENERAL", "1", "PART,1", "$ set, curve, factor: positive is against the normals", "*LOAD_SHELL_SET",
+                       card(1, 1, -value)]
+
     def text(self, *lines):
         self.extra += list(lines)
 
