@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
       std::printf(
           "{\"case\":\"solid\",\"hourglass\":\"%s\",\"isa\":\"x86-64-v%d\",\"threads\":1,\"elements\":%d,"
           "\"ns_per_element_cycle\":%.1f,\"history_bytes_per_element\":%zu}\n",
-          name, kernel_level(), elements, ns, solid_history::count * sizeof(double));
+          name, kernel_level(), elements, ns, solid_history::law * sizeof(double));
     } else {
       std::printf(
           "%d elastic hexahedra, %s hourglass control, x86-64-v%d, 1 thread, %d cycles: %.1f ns per element-cycle\n",

@@ -1,7 +1,11 @@
 # kardan_floor(NAME dependencies...): the static library of one folder of src/kardan, made of every .cpp in it.
-# The dependencies are the folders it may include (docs/architecture.md; the test house.includes checks the includes themselves).
+# Files named *.isa.cpp are compiled once for each instruction set, in a namespace of its own (src/kardan/base/simd.hpp), and chosen
+# between at start. The dependencies are the folders it may include (docs/architecture.md; the test house.includes checks the includes themselves).
 function(kardan_floor name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/kardan/${name}/*.cpp)
+  set(isa_sources ${sources})
+  list(FILTER isa_sources INCLUDE REGEX "\\.isa\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "\\.isa\\.cpp$")
   if(sources)
     add_library(kardan_${name} STATIC ${sources})
     set(scope PUBLIC)
@@ -13,6 +17,17 @@ function(kardan_floor name)
   foreach(dependency ${ARGN})
     target_link_libraries(kardan_${name} ${scope} kardan_${dependency})
   endforeach()
+  if(isa_sources)
+    foreach(level 2 3 4)
+      add_library(kardan_${name}_v${level} OBJECT ${isa_sources})
+      target_link_libraries(kardan_${name}_v${level} PRIVATE kardan_options)
+      target_compile_definitions(kardan_${name}_v${level} PRIVATE KARDAN_ISA_NAMESPACE=isa_v${level})
+      if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+        target_compile_options(kardan_${name}_v${level} PRIVATE -march=x86-64-v${level} -O3 -Wno-psabi)
+      endif()
+      target_sources(kardan_${name} PRIVATE $<TARGET_OBJECTS:kardan_${name}_v${level}>)
+    endforeach()
+  endif()
 endfunction()
 
 # kardan_uses(NAME targets...): outside libraries of a floor.

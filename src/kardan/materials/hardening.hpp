@@ -1,26 +1,57 @@
-// Yield stress over effective plastic strain as a table of straight pieces.
+// Yield stress over effective plastic strain as a table of straight pieces, and its dependence on the rate, as the kernels read them.
 #pragma once
 
-#include <string>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
-
-#include "kardan/base/diagnostics.hpp"
-#include "kardan/model/curve.hpp"
-#include "kardan/model/materials.hpp"
 
 namespace kardan {
 
 /// Rows of a hardening table: from which strain, yield stress there, slope, to which strain.
 inline constexpr std::size_t hardening_columns = 4;
 
-/// The pieces of a law, [row][hardening_columns]; their number is a power of two, rows past the last one begin at infinity. The
-/// first and the last piece go on beyond the points, as LS-DYNA extrapolates the curves of materials.
-std::vector<double> hardening_table(const PiecewisePlasticMaterial& law, const std::vector<Curve>& curves);
+/// The table as the kernels read it.
+struct HardeningCurve {
+  const double* rows = nullptr;  ///< owned by the caller
+  std::size_t row_count = 0;
 
-/// Complains about hardening the return mapping cannot be computed with: a yield stress that is not positive, that falls, or that
-/// rises ever more steeply by more than E/4 from one piece to the next (Newton's method could cycle there). `name` says which
-/// material it is.
-void check_hardening(const PiecewisePlasticMaterial& law, const std::vector<Curve>& curves, const std::string& name,
-                     Diagnostics& diagnostics);
+  explicit HardeningCurve() = default;
+  explicit HardeningCurve(const std::vector<double>& table) : rows(table.data()), row_count(table.size() / hardening_columns) {}
+
+  /// Yield stress at no plastic strain.
+  double initial() const { return rows[1] - rows[2] * rows[0]; }
+
+  template <class R>
+  struct Piece {
+    R from, stress, slope, to;
+  };
+  /// The piece that holds the plastic strain p: a search in halves, without branches.
+  template <class R>
+  [[gnu::always_inline]] Piece<R> piece(const R& p) const {
+    if (row_count == 1) return {R(rows[0]), R(rows[1]), R(rows[2]), R(rows[3])};
+    typename R::Mask row{};
+    for (std::size_t half = row_count / 2; half > 0; half /= 2) {
+      const typename R::Mask next = row + static_cast<std::int64_t>(half * hardening_columns);
+      const typename R::Mask below = R::gather(rows, next) > p;
+      row = below ? row : next;
+    }
+    return {R::gather(rows, row), R::gather(rows + 1, row), R::gather(rows + 2, row), R::gather(rows + 3, row)};
+  }
+};
+
+/// 1 + (rate/C)^(1/P) of Cowper and Symonds 1957; C = 0: no rate effect.
+struct CowperSymonds {
+  double constant = 0, power = 0;  ///< C [1/time], 1/P
+
+  static CowperSymonds from(double c, double p) { return c > 0 && p > 0 ? CowperSymonds{c, 1 / p} : CowperSymonds{}; }
+  bool active() const { return constant > 0; }
+  /// @param square of the increment of strain, e_ij e_ij
+  template <class R>
+  [[gnu::always_inline]] R factor(const R& square, double dt) const {
+    const double scale = dt > 0 ? 1 / (dt * constant) : 0.0;
+    const R relative = max(sqrt(square) * R(scale), R(1e-200));  // the logarithm wants more than 0
+    return R(1.0) + exp(log(relative) * R(power));
+  }
+};
 
 }  // namespace kardan

@@ -4,7 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "kardan/base/index.hpp"
@@ -58,6 +61,35 @@ struct SpringMaterial {
   std::array<CurveIndex, 2> curve{none, none};           ///< the law's curves in the order of its card
 };
 
+/// A law whose parameters only its own files in materials/laws know: what the deck gives, by the (lower case) names of the keyword's
+/// fields, numbers in the main deck's units.
+struct FieldMaterial {
+  int number = 0;       ///< LS-DYNA's: 15 for *MAT_JOHNSON_COOK
+  std::string keyword;  ///< "*MAT_JOHNSON_COOK"
+  double density = 0, youngs_modulus = 0, poissons_ratio = 0;  ///< RO, E, PR; 0 where the keyword has no such field
+  std::map<std::string, double, std::less<>> values;           ///< every real or integer field, blank ones at their default
+  std::map<std::string, CurveIndex, std::less<>> curves;       ///< fields that name a curve, where they do
+  std::map<std::string, Index, std::less<>> tables;            ///< likewise a table
+
+  double value(std::string_view field) const {
+    const auto found = values.find(field);
+    return found == values.end() ? 0.0 : found->second;
+  }
+  /// `fallback` where the field is blank or 0.
+  double value_or(std::string_view field, double fallback) const {
+    const double v = value(field);
+    return v != 0 ? v : fallback;
+  }
+  CurveIndex curve(std::string_view field) const {
+    const auto found = curves.find(field);
+    return found == curves.end() ? none : found->second;
+  }
+  Index table(std::string_view field) const {
+    const auto found = tables.find(field);
+    return found == tables.end() ? none : found->second;
+  }
+};
+
 struct UnsupportedMaterial {
   std::string keyword;
   double density = 0, youngs_modulus = 0, poissons_ratio = 0;
@@ -66,7 +98,7 @@ struct UnsupportedMaterial {
 struct Material {
   UserId id = 0;
   std::string title;
-  std::variant<RigidMaterial, ElasticMaterial, PiecewisePlasticMaterial, SpringMaterial, UnsupportedMaterial> law;
+  std::variant<RigidMaterial, ElasticMaterial, PiecewisePlasticMaterial, SpringMaterial, FieldMaterial, UnsupportedMaterial> law;
 
   bool rigid() const { return std::holds_alternative<RigidMaterial>(law); }
 };

@@ -28,9 +28,9 @@
 // hourglass forces then do no work in a rigid rotation and have no resultant moment. (LS-DYNA leaves this term out.)
 #pragma once
 
-#include "kardan/base/simd_math.hpp"
 #include "kardan/base/vec3.hpp"
 #include "kardan/elements/shell/shell_kernel.hpp"
+#include "kardan/elements/tiles/tile_loop.hpp"
 
 namespace kardan::KARDAN_ISA_NAMESPACE {
 
@@ -81,14 +81,12 @@ KARDAN_INLINE void hourglass_shape(const ShellAxes<R>& s, R (&g)[4]) {
 }
 
 /// Nodal values of a block, gathered: [node][component][lane].
-struct ShellBlock {
+struct ShellBlock : BlockReport {
   double x[4][3][block_lanes];
   double v[4][6][block_lanes];
   double share[2][block_lanes];  ///< N of nodes 1, 2 and of nodes 3, 4
   double triangle[block_lanes];  ///< 1 or 0
-  double active[block_lanes];    ///< 1 or 0
   double force[4][6][block_lanes];
-  double internal[block_lanes], hourglass[block_lanes], time_step[block_lanes];
 };
 
 /// Rates of the generalised strains of one element in its axes.
@@ -134,22 +132,27 @@ KARDAN_INLINE ShellRates<R> shell_rates(const ShellAxes<R>& s, const R (&g)[4], 
 template <class R>
 struct ShellResultants {
   R fxx{}, fyy{}, fxy{}, qx{}, qy{}, mxx{}, myy{}, mxy{};
-  R work{};  ///< of the stresses over the step, per area
+  R work{};    ///< of the stresses over the step, per area
+  R intact{};  ///< 0 where every point has failed
 };
 
 template <class R, class Law>
-KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, const Law& law, const ShellRates<R>& r, double step, R half,
-                                                   double* history) {
-  const R dt(step);
+KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, const Law& law, const ShellRates<R>& r,
+                                                   const StepTime& step, R half, double* history) {
+  const R dt(step.dt);
   ShellResultants<R> t;
+  R intact{};
   for (int i = 0; i < p.points; ++i) {
-    double* h = history + static_cast<std::size_t>(i) * shell_point_values<Law> * block_lanes;
-    PlaneStress<R> s{R::load(h), R::load(h + block_lanes), R::load(h + 2 * block_lanes), R::load(h + 3 * block_lanes),
-                     R::load(h + 4 * block_lanes)};
+    double* h = history + static_cast<std::size_t>(i) * shell_point_values(law.history()) * block_lanes;
+    ShellPoint<R> point;
+    PlaneStress<R>& s = point.stress;
+    s = {R::load(h), R::load(h + block_lanes), R::load(h + 2 * block_lanes), R::load(h + 3 * block_lanes),
+         R::load(h + 4 * block_lanes)};
     const PlaneStress<R> old = s;
     const R z = half * R(p.zeta[i]), w = half * R(p.weight[i]);
-    const PlaneStress<R> d{(r.xx + z * r.kxx) * dt, (r.yy + z * r.kyy) * dt, (r.xy + z * r.kxy) * dt, r.yz * dt, r.zx * dt};
-    law.update(s, d, step, h + 5 * block_lanes);
+    const PlaneStress<R>& d = point.strain = {(r.xx + z * r.kxx) * dt, (r.yy + z * r.kyy) * dt, (r.xy + z * r.kxy) * dt, r.yz * dt, r.zx * dt};
+    law.update(point, step, h + 5 * block_lanes);
+    intact = max(intact, R(1.0) - point.failed);
     t.work += R(0.5) * w * ((old.xx + s.xx) * d.xx + (old.yy + s.yy) * d.yy + (old.xy + s.xy) * d.xy + (old.yz + s.yz) * d.yz +
                             (old.zx + s.zx) * d.zx);
     s.xx.store(h);
@@ -167,6 +170,7 @@ KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, con
     t.myy += wz * s.yy;
     t.mxy += wz * s.xy;
   }
+  t.intact = intact;
   return t;
 }
 
@@ -216,9 +220,9 @@ KARDAN_INLINE R stable_step(const ShellProperties& p, const ShellAxes<R>& s, con
 
 /// Lanes [first, first + R::lanes) of a block.
 template <class R, class Law>
-KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, double step, ShellBlock& block, double* history,
+KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, const StepTime& step, ShellBlock& block, double* history,
                               std::size_t first) {
-  const R dt(step), half_dt(0.5 * step);
+  const R dt(step.dt), half_dt(0.5 * step.dt), zero(0.0);
   Vec3T<R> x[4], v[4], w[4], middle[4];
   for (int a = 0; a < 4; ++a) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -231,21 +235,25 @@ KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, double s
   const R n12 = R::load(block.share[0] + first), n34 = R::load(block.share[1] + first);
   const R n[4] = {n12, n12, n34, n34};
   history += first;
-  double* kept = history + static_cast<std::size_t>(p.points) * shell_point_values<Law> * block_lanes;
+  double* kept = history + static_cast<std::size_t>(p.points) * shell_point_values(law.history()) * block_lanes;
   const R thickness = R::load(kept + 5 * block_lanes);
 
-  R g[4], hg[5];
+  R g[4], hg[5], active;
   ShellResultants<R> t;
   {
     const ShellAxes<R> s = shell_axes(middle);
     hourglass_shape(s, g);
     const ShellRates<R> rates = shell_rates(s, g, v, w, n);
     t = through_thickness(p, law, rates, step, R(0.5) * thickness, history);
-    const R active = R::load(block.active + first);
-    (active * t.work * s.area).store(block.internal + first);
-    (active * hourglass_forces(p, s, rates, dt, thickness, kept, hg)).store(block.hourglass + first);
+    active = R::load(block.alive + first);
+    select(active > zero, t.work * s.area, zero).store(block.internal + first);
+    const R hourglass_work = hourglass_forces(p, s, rates, dt, thickness, kept, hg);
+    select(active > zero, hourglass_work, zero).store(block.hourglass + first);
   }
 
+  active = active * t.intact;
+  active.store(block.alive + first);
+  const auto alive = active > zero;
   const ShellAxes<R> s = shell_axes(x);
   hourglass_shape(s, g);
   stable_step(p, s, x, R::load(block.triangle + first)).store(block.time_step + first);
@@ -257,19 +265,21 @@ KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, double s
     const R my = g[a] * hg[4] + s.area * (s.b1[a] * t.mxx + s.b2[a] * t.mxy + n[a] * t.qx);
     const Vec3T<R> f = s.e1 * fx + s.e2 * fy + s.e3 * fz, m = s.e1 * mx + s.e2 * my;
     for (std::size_t c = 0; c < 3; ++c) {
-      f[c].store(block.force[a][c] + first);
-      m[c].store(block.force[a][c + 3] + first);
+      select(alive, f[c], zero).store(block.force[a][c] + first);
+      select(alive, m[c], zero).store(block.force[a][c + 3] + first);
     }
   }
 }
 
-KARDAN_INLINE void gather(const ShellTileWork& work, const std::uint16_t* connectivity, std::size_t lanes, ShellBlock& block) {
+KARDAN_INLINE void gather(const TileWork& work, const std::uint16_t* connectivity, ShellBlock& block) {
   for (std::size_t a = 0; a < 4; ++a) {
     for (std::size_t l = 0; l < block_lanes; ++l) {
-      const double* x = work.x + 3 * connectivity[a * block_lanes + l];
-      const double* v = work.v + 6 * connectivity[a * block_lanes + l];
-      for (std::size_t c = 0; c < 3; ++c) block.x[a][c][l] = x[c];
-      for (std::size_t c = 0; c < 6; ++c) block.v[a][c][l] = v[c];
+      const double* node = work.node + node_stride(6) * connectivity[a * block_lanes + l];
+      for (std::size_t c = 0; c < 3; ++c) {
+        block.x[a][c][l] = node[c];
+        block.v[a][c][l] = node[c + 4];
+        block.v[a][c + 3][l] = node[c + 8];
+      }
     }
   }
   for (std::size_t l = 0; l < block_lanes; ++l) {
@@ -277,11 +287,10 @@ KARDAN_INLINE void gather(const ShellTileWork& work, const std::uint16_t* connec
     block.triangle[l] = triangle ? 1.0 : 0.0;
     block.share[0][l] = triangle ? 1.0 / 3.0 : 0.25;
     block.share[1][l] = triangle ? 1.0 / 6.0 : 0.25;
-    block.active[l] = l < lanes ? 1.0 : 0.0;
   }
 }
 
-KARDAN_INLINE void scatter(const ShellTileWork& work, const std::uint16_t* connectivity, std::size_t lanes, const ShellBlock& block) {
+KARDAN_INLINE void scatter(const TileWork& work, const std::uint16_t* connectivity, std::size_t lanes, const ShellBlock& block) {
   for (std::size_t a = 0; a < 4; ++a) {
     for (std::size_t l = 0; l < lanes; ++l) {
       double* f = work.force + 6 * connectivity[a * block_lanes + l];
@@ -290,47 +299,20 @@ KARDAN_INLINE void scatter(const ShellTileWork& work, const std::uint16_t* conne
   }
 }
 
+/// A tile; Law is Inlined or Called.
 template <class Law>
-KARDAN_INLINE void shell_tile(ShellTileWork& work, const Law& law) {
-  const ShellProperties& p = *work.properties;
-  std::memset(work.force, 0, work.nodes * 6 * sizeof(double));
-  double internal[block_lanes] = {}, hourglass[block_lanes] = {};
-  work.time_step = __builtin_inf();
-  work.governing = work.broken = 0;
-  const std::size_t history_size = shell_history_size(p.points, shell_point_values<Law>) * block_lanes;
+void shell_tile(TileWork& work) {
+  const ShellProperties& p = *static_cast<const ShellProperties*>(work.properties);
+  const Law law(p.law);
   ShellBlock block;
-  for (std::size_t first = 0, b = 0; first < work.elements; first += block_lanes, ++b) {
-    const std::uint16_t* connectivity = work.connectivity + b * 4 * block_lanes;
-    const std::size_t lanes = work.elements - first < block_lanes ? work.elements - first : block_lanes;
-    gather(work, connectivity, lanes, block);
-    for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) {
-      shell_pack<Pack>(p, law, work.dt, block, work.history + b * history_size, l);
-    }
-    scatter(work, connectivity, lanes, block);
-    for (std::size_t l = 0; l < block_lanes; ++l) {
-      internal[l] += block.internal[l];
-      hourglass[l] += block.hourglass[l];
-    }
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const double step = block.time_step[l];
-      if (!(step > 0) || !(block.internal[l] - block.internal[l] == 0)) work.broken = first + l + 1;
-      if (step < work.time_step) {
-        work.time_step = step;
-        work.governing = first + l;
-      }
-    }
-  }
-  work.internal_increment = work.hourglass_increment = 0;
-  for (std::size_t l = 0; l < block_lanes; ++l) {
-    work.internal_increment += internal[l];
-    work.hourglass_increment += hourglass[l];
-  }
-}
-
-/// One entry for every law of shells, in their order.
-template <class... Laws>
-constexpr ShellKernels<std::variant<Laws...>> kernels_of(const std::variant<Laws...>*) {
-  return {{[](ShellTileWork& work, const void* law) { shell_tile(work, *static_cast<const Laws*>(law)); }...}};
+  for_each_block<4>(work, 6, shell_history_size(p.points, law.history()), block,
+                    [&](const std::uint16_t* connectivity, std::size_t lanes, double* history) {
+                      gather(work, connectivity, block);
+                      for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) {
+                        shell_pack<Pack>(p, law, work.step, block, history, l);
+                      }
+                      scatter(work, connectivity, lanes, block);
+                    });
 }
 
 }  // namespace kardan::KARDAN_ISA_NAMESPACE

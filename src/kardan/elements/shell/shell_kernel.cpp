@@ -4,20 +4,8 @@
 
 namespace kardan {
 
-namespace isa_v2 {
-extern const ShellKernels<ShellLaw> belytschko_tsay;
-}
-namespace isa_v3 {
-extern const ShellKernels<ShellLaw> belytschko_tsay;
-}
-namespace isa_v4 {
-extern const ShellKernels<ShellLaw> belytschko_tsay;
-}
+KARDAN_ISA_OBJECT(TileKernels, belytschko_tsay_kernels);
 
-const ShellKernels<ShellLaw>& belytschko_tsay() {
-  static constexpr const ShellKernels<ShellLaw>* kernels[] = {&isa_v2::belytschko_tsay, &isa_v3::belytschko_tsay,
-                                                              &isa_v4::belytschko_tsay};
-  return *kernels[kernel_level() - lowest_kernel_level];
-}
+const TileKernels& belytschko_tsay() { return belytschko_tsay_kernels_of_isa.running(); }
 
 }  // namespace kardan

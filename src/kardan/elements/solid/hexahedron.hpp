@@ -29,9 +29,9 @@
 // stress exactly.
 #pragma once
 
-#include "kardan/base/simd.hpp"
 #include "kardan/base/vec3.hpp"
 #include "kardan/elements/solid/solid_kernel.hpp"
+#include "kardan/elements/tiles/tile_loop.hpp"
 
 namespace kardan::KARDAN_ISA_NAMESPACE {
 
@@ -123,10 +123,13 @@ KARDAN_INLINE SymmetricTensor<R> turned(const Mat3T<R>& q, const SymmetricTensor
   return {dot(q[0], x), dot(q[1], y), dot(q[2], z), dot(q[0], y), dot(q[1], z), dot(q[2], x)};
 }
 
+/// Turns the tensors that a law's history begins with.
 template <class R>
-KARDAN_INLINE R contraction(const SymmetricTensor<R>& a, const SymmetricTensor<R>& b) {
-  const R shear = a.xy * b.xy + a.yz * b.yz + a.zx * b.zx;
-  return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + shear + shear;
+KARDAN_INLINE void turn_tensors(const Mat3T<R>& q, std::size_t count, double* history) {
+  for (std::size_t i = 0; i < count; ++i) {
+    double* h = history + i * 6 * block_lanes;
+    store_tensor(turned(q, load_tensor<R>(h)), h);
+  }
 }
 
 /// V^(1/3) by two steps of Newton's method from the root of the cycle before; the volume of an element changes little a
@@ -151,38 +154,12 @@ KARDAN_INLINE R characteristic_length(const Vec3T<R> (&x)[8], const R& volume) {
 }
 
 /// Nodal values of a block, gathered: [node][component][lane].
-struct SolidBlock {
+struct SolidBlock : BlockReport {
   double x[8][3][block_lanes];
   double v[8][3][block_lanes];
   double tetrahedron[block_lanes];  ///< 3 of a tetrahedron, whose length is its altitude 3 V/A; else 1
   double force[8][3][block_lanes];
-  double internal[block_lanes], hourglass[block_lanes], time_step[block_lanes];
 };
-
-template <class R>
-struct SolidStresses {
-  SymmetricTensor<R> stress;  ///< at t_n, with bulk viscosity
-  Vec3T<R> hourglass[4];      ///< Q of the four modes at t_n
-};
-
-template <class R>
-KARDAN_INLINE SymmetricTensor<R> load_tensor(const double* h) {
-  return {R::load(h),
-          R::load(h + block_lanes),
-          R::load(h + 2 * block_lanes),
-          R::load(h + 3 * block_lanes),
-          R::load(h + 4 * block_lanes),
-          R::load(h + 5 * block_lanes)};
-}
-template <class R>
-KARDAN_INLINE void store_tensor(const SymmetricTensor<R>& s, double* h) {
-  s.xx.store(h);
-  s.yy.store(h + block_lanes);
-  s.zz.store(h + 2 * block_lanes);
-  s.xy.store(h + 3 * block_lanes);
-  s.yz.store(h + 4 * block_lanes);
-  s.zx.store(h + 5 * block_lanes);
-}
 
 /// Forces of the hourglass modes at t_n on the geometry of the middle of the step; returns their work over the step.
 template <class R>
@@ -218,10 +195,10 @@ KARDAN_INLINE R hourglass_forces(const SolidProperties& p, const Modes<R>& x, co
 
 /// Lanes [first, first + R::lanes) of a block.
 template <class R, class Law>
-KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, double step, SolidBlock& block, double* history,
+KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, const StepTime& step, SolidBlock& block, double* history,
                               std::size_t first) {
   namespace kept = solid_history;
-  const R dt(step), zero(0.0);
+  const R dt(step.dt), zero(0.0);
   history += first;
   Vec3T<R> corner[8], rate[8];
   for (int a = 0; a < 8; ++a) {
@@ -234,48 +211,56 @@ KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, double s
   const MeanGradient<R> now = mean_gradient(x);
   const R length = characteristic_length(corner, now.volume) * R::load(block.tetrahedron + first);
 
-  SymmetricTensor<R> stress;
+  MaterialPoint<R> point;
+  SymmetricTensor<R>& stress = point.stress;
   Vec3T<R> hourglass[4];
   R divergence;
+  const auto alive_before = R::load(block.alive + first) > zero;
   {
     Modes<R> middle;
-    const R half_dt(0.5 * step);
+    const R half_dt(0.5 * step.dt);
     for (int k = 0; k < 7; ++k) middle.a[k] = x.a[k] - v.a[k] * half_dt;
     const MeanGradient<R> g = mean_gradient(middle);
     const Mat3T<R> l = sum_outer<6>(v.a, g.b, R(8.0) / g.volume);
     const Mat3T<R> q = half_rotation(l, dt);
     const R half(0.5);
-    const SymmetricTensor<R> d{l[0].x * dt,
-                               l[1].y * dt,
-                               l[2].z * dt,
-                               half * (l[0].y + l[1].x) * dt,
-                               half * (l[1].z + l[2].y) * dt,
-                               half * (l[2].x + l[0].z) * dt};
+    const SymmetricTensor<R>& d = point.strain = {l[0].x * dt,
+                                                  l[1].y * dt,
+                                                  l[2].z * dt,
+                                                  half * (l[0].y + l[1].x) * dt,
+                                                  half * (l[1].z + l[2].y) * dt,
+                                                  half * (l[2].x + l[0].z) * dt};
     divergence = l[0].x + l[1].y + l[2].z;
     double* h = history + kept::stress * block_lanes;
+    double* const own = history + kept::law * block_lanes;
+    double* viscosity = history + kept::viscosity * block_lanes;
+    const R original = R::load(history + kept::volume * block_lanes);
+    point.volume = now.volume / original;
+    point.viscosity = R::load(viscosity);
+    point.modulus = R(p.longitudinal);
     stress = turned(q, load_tensor<R>(h));
     R work = contraction(stress, d);
-    law.update(stress, d);
+    turn_tensors(q, law.tensors(), own);
+    law.update(point, step, own);
+    turn_tensors(q, law.tensors(), own);
     work += contraction(stress, d);
     stress = turned(q, stress);
     store_tensor(stress, h);
 
     // Bulk viscosity, on density and length of t_n.
-    const R original = R::load(history + kept::volume * block_lanes);
     double* kept_size = history + kept::size * block_lanes;
     const R size = cube_root(now.volume, R::load(kept_size)), squeeze = max(-divergence, zero);
     size.store(kept_size);
-    double* viscosity = history + kept::viscosity * block_lanes;
     const R pressure =
         R(p.density) * original / now.volume * size * squeeze * (R(p.q1) * size * squeeze + R(p.q2) * R(p.wave_speed));
-    work -= (R::load(viscosity) + pressure) * divergence * dt;
+    work -= (point.viscosity + pressure) * divergence * dt;
     pressure.store(viscosity);
     stress.xx -= pressure;
     stress.yy -= pressure;
     stress.zz -= pressure;
-    (R(0.5) * work * g.volume).store(block.internal + first);
-    hourglass_forces(p, middle, v, g, l, q, dt, size * size, history + kept::hourglass * block_lanes, hourglass)
-        .store(block.hourglass + first);
+    select(alive_before, R(0.5) * work * g.volume, zero).store(block.internal + first);
+    const R hourglass_work = hourglass_forces(p, middle, v, g, l, q, dt, size * size, history + kept::hourglass * block_lanes, hourglass);
+    select(alive_before, hourglass_work, zero).store(block.hourglass + first);
   }
 
   const Mat3T<R> arm = sum_outer<4>(hourglass, x.a + 3, R(8.0) / now.volume);
@@ -287,19 +272,21 @@ KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, double s
   f.a[6] = Vec3T<R>{};
   for (int k = 0; k < 4; ++k) f.a[k + 3] += hourglass[k];
   to_nodes(f, corner);
+  const R intact = select(alive_before & (point.failed < R(0.5)), R(1.0), zero);
+  intact.store(block.alive + first);
   for (int a = 0; a < 8; ++a) {
-    for (std::size_t c = 0; c < 3; ++c) corner[a][c].store(block.force[a][c] + first);
+    for (std::size_t c = 0; c < 3; ++c) select(intact > zero, corner[a][c], zero).store(block.force[a][c] + first);
   }
 
-  const R c(p.wave_speed), damping = select(divergence < zero, R(p.q2) * c - R(p.q1) * length * divergence, zero);
+  const R c = sqrt(point.modulus * R(1.0 / p.density)), damping = select(divergence < zero, R(p.q2) * c - R(p.q1) * length * divergence, zero);
   const R stable = length / (damping + sqrt(damping * damping + c * c));
   select(now.volume > zero, stable, -R(1.0)).store(block.time_step + first);
 }
 
-KARDAN_INLINE void gather(const SolidTileWork& work, const std::uint16_t* connectivity, SolidBlock& block) {
+KARDAN_INLINE void gather(const TileWork& work, const std::uint16_t* connectivity, SolidBlock& block) {
   for (std::size_t a = 0; a < 8; ++a) {
     for (std::size_t l = 0; l < block_lanes; ++l) {
-      const double* node = work.node + solid_node_stride * connectivity[a * block_lanes + l];
+      const double* node = work.node + node_stride(3) * connectivity[a * block_lanes + l];
       for (std::size_t c = 0; c < 3; ++c) block.x[a][c][l] = node[c];
       for (std::size_t c = 0; c < 3; ++c) block.v[a][c][l] = node[c + 4];
     }
@@ -311,8 +298,7 @@ KARDAN_INLINE void gather(const SolidTileWork& work, const std::uint16_t* connec
   }
 }
 
-KARDAN_INLINE void scatter(const SolidTileWork& work, const std::uint16_t* connectivity, std::size_t lanes,
-                           const SolidBlock& block) {
+KARDAN_INLINE void scatter(const TileWork& work, const std::uint16_t* connectivity, std::size_t lanes, const SolidBlock& block) {
   for (std::size_t a = 0; a < 8; ++a) {
     for (std::size_t l = 0; l < lanes; ++l) {
       double* f = work.force + 3 * connectivity[a * block_lanes + l];
@@ -321,38 +307,20 @@ KARDAN_INLINE void scatter(const SolidTileWork& work, const std::uint16_t* conne
   }
 }
 
+/// A tile; Law is Inlined or Called.
 template <class Law>
-KARDAN_INLINE void solid_tile(SolidTileWork& work, const Law& law) {
-  const SolidProperties& p = *work.properties;
-  std::memset(work.force, 0, work.nodes * 3 * sizeof(double));
-  double internal[block_lanes] = {}, hourglass[block_lanes] = {};
-  work.time_step = __builtin_inf();
-  work.governing = work.broken = 0;
+void solid_tile(TileWork& work) {
+  const SolidProperties& p = *static_cast<const SolidProperties*>(work.properties);
+  const Law law(p.law);
   SolidBlock block;
-  for (std::size_t first = 0, b = 0; first < work.elements; first += block_lanes, ++b) {
-    const std::uint16_t* connectivity = work.connectivity + b * 8 * block_lanes;
-    const std::size_t lanes = work.elements - first < block_lanes ? work.elements - first : block_lanes;
-    gather(work, connectivity, block);
-    for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) {
-      solid_pack<Pack>(p, law, work.dt, block, work.history + b * solid_history::count * block_lanes, l);
-    }
-    scatter(work, connectivity, lanes, block);
-    for (std::size_t l = 0; l < lanes; ++l) {
-      internal[l] += block.internal[l];
-      hourglass[l] += block.hourglass[l];
-      const double step = block.time_step[l];
-      if (!(step > 0) || !(block.internal[l] - block.internal[l] == 0)) work.broken = first + l + 1;
-      if (step < work.time_step) {
-        work.time_step = step;
-        work.governing = first + l;
-      }
-    }
-  }
-  work.internal_increment = work.hourglass_increment = 0;
-  for (std::size_t l = 0; l < block_lanes; ++l) {
-    work.internal_increment += internal[l];
-    work.hourglass_increment += hourglass[l];
-  }
+  for_each_block<8>(work, 3, solid_history::law + law.history(), block,
+                    [&](const std::uint16_t* connectivity, std::size_t lanes, double* history) {
+                      gather(work, connectivity, block);
+                      for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) {
+                        solid_pack<Pack>(p, law, work.step, block, history, l);
+                      }
+                      scatter(work, connectivity, lanes, block);
+                    });
 }
 
 }  // namespace kardan::KARDAN_ISA_NAMESPACE

@@ -4,20 +4,8 @@
 
 namespace kardan {
 
-namespace isa_v2 {
-void hexahedron_elastic(SolidTileWork& work);
-}
-namespace isa_v3 {
-void hexahedron_elastic(SolidTileWork& work);
-}
-namespace isa_v4 {
-void hexahedron_elastic(SolidTileWork& work);
-}
+KARDAN_ISA_OBJECT(TileKernels, hexahedron_kernels);
 
-SolidKernel hexahedron_elastic() {
-  static constexpr SolidKernel kernels[] = {isa_v2::hexahedron_elastic, isa_v3::hexahedron_elastic,
-                                            isa_v4::hexahedron_elastic};
-  return kernels[kernel_level() - lowest_kernel_level];
-}
+const TileKernels& hexahedron() { return hexahedron_kernels_of_isa.running(); }
 
 }  // namespace kardan

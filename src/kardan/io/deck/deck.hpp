@@ -49,7 +49,7 @@ namespace dimension {
 inline constexpr Dimension none{}, mass{1, 0, 0}, length{0, 1, 0}, time{0, 0, 1}, area{0, 2, 0}, density{1, -3, 0},
     velocity{0, 1, -1}, acceleration{0, 1, -2}, angular_velocity{0, 0, -1}, angular_acceleration{0, 0, -2},
     force{1, 1, -2}, moment{1, 2, -2}, stress{1, -1, -2}, inertia{1, 2, 0}, stiffness{1, 0, -2}, damping{1, 0, -1},
-    rotational_stiffness{1, 2, -2}, rotational_damping{1, 2, -1};
+    rate{0, 0, -1}, rotational_stiffness{1, 2, -2}, rotational_damping{1, 2, -1};
 }
 
 /// x -> linear x + shift.

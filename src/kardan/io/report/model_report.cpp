@@ -31,6 +31,7 @@ struct LawName {
         "nonlinear damper", "general nonlinear spring", "Maxwell spring",       "inelastic spring"};
     return names[static_cast<std::size_t>(m.law)];
   }
+  std::string operator()(const FieldMaterial& m) const { return m.keyword; }
   std::string operator()(const UnsupportedMaterial& m) const { return m.keyword + " (not available)"; }
 };
 

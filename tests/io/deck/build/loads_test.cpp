@@ -167,7 +167,7 @@ TEST(BuildErrors, ElementsAndParts) {
 
 TEST(BuildErrors, WhatIsNotHonouredIsSaid) {
   const Built b(two_blocks +
-                "*MAT_003\n5,7.8,210,.3\n*PART\nsoft\n9,1,5\n*ELEMENT_SOLID\n3,9,1,2,3,4,5,6,7,8\n*CONTROL_TIMESTEP\n0,"
+                "*MAT_033\n5,7.8,210,.3\n*PART\nsoft\n9,1,5\n*ELEMENT_SOLID\n3,9,1,2,3,4,5,6,7,8\n*CONTROL_TIMESTEP\n0,"
                 "0,0,0,-1e-6\n*DEFINE_CURVE\n1\n0,1\n*LOAD_BODY_X\n1,1,7\n"
                 "*CONSTRAINED_JOINT_GEARS\n5,11,6,12\n2.,0,0,0,15.\n*BOUNDARY_PRESCRIBED_MOTION_RIGID\n1,1,0,1,1.,-3");
   EXPECT_TRUE(b.diagnostics.ok()) << b.messages();

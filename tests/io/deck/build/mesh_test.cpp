@@ -123,8 +123,8 @@ TEST(BuildMesh, MaterialsRigidSpringsAndUnknownLaws) {
   const Built b(
       "*DEFINE_CURVE\n9\n0,0\n1,1\n*DEFINE_COORDINATE_VECTOR\n3,0,1,0,-1,0,0\n*MAT_020\n1,7.8,210.,.3\n-1,3,"
       "101011\n3\n*MAT_RIGID\n2,7.8,210.,.3\n2,4,7,0,1.,2.,3.\n0\n"
-      "*MAT_S03\n4,10,1,5\n*MAT_SPRING_INELASTIC\n5,9,3.,1.\n*MAT_SPRING_NONLINEAR_ELASTIC\n6,9\n*MAT_PLASTIC_"
-      "KINEMATIC\n8,2.7,70,.33");
+      "*MAT_S03\n4,10,1,5\n*MAT_SPRING_INELASTIC\n5,9,3.,1.\n*MAT_SPRING_NONLINEAR_ELASTIC\n6,9\n*MAT_BARLAT_ANISOTROPIC_"
+      "PLASTICITY\n8,2.7,70,.33");
   ASSERT_TRUE(b.diagnostics.ok()) << b.messages();
   const auto& rigid = std::get<RigidMaterial>(b.model.materials[0].law);
   EXPECT_EQ(rigid.frame, 0);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "kardan/io/deck/build/builder.hpp"
+#include "kardan/io/deck/build/material_fields.hpp"
 
 namespace kardan::deck {
 
@@ -209,6 +210,39 @@ SpringMaterial read_spring(Builder& b, const Block& block, const Card& card, con
   return m;
 }
 
+/// Every field of the cards in the table; a keyword whose cards depend on its fields has its own reader.
+FieldMaterial read_fields(Builder& b, Block& block, const Card& first, const MaterialFields& row) {
+  FieldMaterial m;
+  m.number = row.number;
+  m.keyword = block.as_written();
+  const auto read = [&](const CardLayout& layout, const Card& card) {
+    for (const FieldLayout& field : layout.fields) {
+      if (field.type == 'A' || field.name == "mid") continue;
+      if (field.type == 'I' && field.name.starts_with("lc")) {
+        const UserId id = card.present() ? card.id(field.name, IdKind::curve) : 0;
+        if (const Index table = b.tables.find(id); id != 0 && table != none)
+          m.tables[field.name] = table;
+        else
+          m.curves[field.name] = b.optional_curve(card, field.name);
+        continue;
+      }
+      const auto known = row.dimensions.find(field.name);
+      const Dimension d = field.name == "ro"                   ? dimension::density
+                          : field.name == "e"                  ? dimension::stress
+                          : known != row.dimensions.end() ? known->second
+                                                              : dimension::none;
+      m.values[field.name] = card.real(field.name, d);
+    }
+  };
+  for (const CardLayout& layout : block.info->cards) {
+    read(layout, layout.name == "card0" ? first : block.next_optional(layout.name));
+  }
+  m.density = m.value("ro");
+  m.youngs_modulus = m.value("e");
+  m.poissons_ratio = m.value("pr");
+  return m;
+}
+
 UnsupportedMaterial read_unsupported(const Block& block, const Card& card) {
   UnsupportedMaterial m;
   m.keyword = block.as_written();
@@ -225,7 +259,8 @@ void build_material(Builder& b, Block& block) {
   const auto spring = spring_layouts().find(block.keyword);
   const bool rigid = block.keyword == "MAT_RIGID", elastic = block.keyword == "MAT_ELASTIC";
   const bool plastic = block.keyword == "MAT_PIECEWISE_LINEAR_PLASTICITY";
-  const bool known = plastic || rigid || elastic || spring != spring_layouts().end();
+  const MaterialFields* fields = material_fields(block.keyword);
+  const bool known = plastic || rigid || elastic || fields || spring != spring_layouts().end();
   do {  // an unknown law's cards are not known either: only the first material of the block is read
     Material material;
     if (block.has("TITLE")) material.title = block.next_title();
@@ -238,6 +273,8 @@ void build_material(Builder& b, Block& block) {
       material.law = read_elastic(card);
     else if (plastic)
       material.law = read_piecewise_plastic(b, block, card);
+    else if (fields)
+      material.law = read_fields(b, block, card, *fields);
     else if (known)
       material.law = read_spring(b, block, card, spring->second);
     else

@@ -1,4 +1,4 @@
-#include "kardan/materials/hardening.hpp"
+#include "kardan/materials/hardening_table.hpp"
 
 #include <bit>
 #include <limits>

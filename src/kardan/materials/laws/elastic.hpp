@@ -6,27 +6,39 @@
 // Source: Hallquist, LS-DYNA Theory Manual 2006, Material Model 1.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
+#include "kardan/materials/point.hpp"
+
 namespace kardan {
 
-/// A symmetric tensor: stress, or strain increment.
-template <class R>
-struct SymmetricTensor {
-  R xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
-};
+struct LawSource;
 
 /// Constants of the law, ready for the kernel.
 struct Elastic {
+  static constexpr std::size_t history = 0, tensors = 0;
+
   double lambda = 0, two_mu = 0;
 
   static Elastic from(double youngs_modulus, double poissons_ratio) {
     const double nu = poissons_ratio;
     return {nu * youngs_modulus / ((1 + nu) * (1 - 2 * nu)), youngs_modulus / (1 + nu)};
   }
+  /// From *MAT_ELASTIC; complains where it cannot be computed.
+  static std::optional<Elastic> make(LawSource& source);
   /// Modulus of the dilatational wave, lambda + 2 mu.
   double longitudinal() const { return lambda + two_mu; }
+  double shear() const { return 0.5 * two_mu; }
+  void start(double*) const {}
 
   template <class R>
-  [[gnu::always_inline]] void update(SymmetricTensor<R>& s, const SymmetricTensor<R>& d) const {
+  [[gnu::always_inline]] void update(MaterialPoint<R>& p, const StepTime&, double*) const {
+    add_increment(p.stress, p.strain);
+  }
+  /// The elastic (trial) stress.
+  template <class R>
+  [[gnu::always_inline]] void add_increment(SymmetricTensor<R>& s, const SymmetricTensor<R>& d) const {
     const R mean = lambda * (d.xx + d.yy + d.zz);
     s.xx += mean + two_mu * d.xx;
     s.yy += mean + two_mu * d.yy;

@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-#include "kardan/materials/plane_stress.hpp"
+#include "kardan/materials/laws/elastic.hpp"
 
 namespace kardan {
 
@@ -20,17 +20,29 @@ struct ElasticPlaneStress {
   double c11 = 0, c12 = 0;   ///< E/(1-nu^2), nu E/(1-nu^2)
   double shear = 0;          ///< G
   double transverse = 0;     ///< k G
+  double thinning = 0;       ///< nu/E: strain normal to the plane is -(nu/E) d(sigma_xx + sigma_yy)
 
+  static ElasticPlaneStress from(const Elastic& m, double shear_factor) {
+    const double g = m.shear(), nu = m.lambda / (2 * (m.lambda + g));
+    return from(2 * g * (1 + nu), nu, shear_factor);
+  }
   static ElasticPlaneStress from(double youngs_modulus, double poissons_ratio, double shear_factor) {
     const double plate = youngs_modulus / (1 - poissons_ratio * poissons_ratio);
     const double g = youngs_modulus / (2 * (1 + poissons_ratio));
-    return {plate, poissons_ratio * plate, g, shear_factor * g};
+    return {plate, poissons_ratio * plate, g, shear_factor * g, poissons_ratio / youngs_modulus};
   }
 
   void start(double*) const {}
 
   template <class R>
-  [[gnu::always_inline]] void update(PlaneStress<R>& s, const PlaneStress<R>& d, double, double*) const {
+  [[gnu::always_inline]] void update(ShellPoint<R>& p, const StepTime&, double*) const {
+    const R sum = p.stress.xx + p.stress.yy;
+    add_increment(p.stress, p.strain);
+    p.thickness_strain = R(-thinning) * (p.stress.xx + p.stress.yy - sum);
+  }
+  /// The elastic (trial) stress.
+  template <class R>
+  [[gnu::always_inline]] void add_increment(PlaneStress<R>& s, const PlaneStress<R>& d) const {
     s.xx += c11 * d.xx + c12 * d.yy;
     s.yy += c12 * d.xx + c11 * d.yy;
     s.xy += shear * d.xy;

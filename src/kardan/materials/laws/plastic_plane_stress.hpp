@@ -18,11 +18,10 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "kardan/base/lanes.hpp"
-#include "kardan/materials/elastic_plane_stress.hpp"
-#include "kardan/materials/hardening.hpp"
+#include "kardan/materials/laws/elastic_plane_stress.hpp"
+#include "kardan/materials/laws/piecewise_plastic.hpp"
 
 namespace kardan {
 
@@ -34,34 +33,37 @@ struct PlasticPlaneStress {
 
   ElasticPlaneStress elastic;
   double k_a = 0, k_b = 0, k_t = 0;           ///< E/(2 (1-nu)), 3 G, 3 k G
-  double rate_constant = 0, rate_power = 0;   ///< C, 1/P; C = 0: no rate effect
-  const double* rows = nullptr;               ///< hardening_table(), owned by the caller
-  std::size_t row_count = 0;
+  double elastic_bulk = 0;                    ///< (1 - 2 nu)/E
+  CowperSymonds rate_law;
+  HardeningCurve hardening;
 
-  static PlasticPlaneStress from(const PiecewisePlasticMaterial& law, double shear_factor, const std::vector<double>& table) {
-    const double e = law.youngs_modulus, nu = law.poissons_ratio;
+  static PlasticPlaneStress from(const PiecewisePlastic& law, double shear_factor) {
     PlasticPlaneStress m;
-    m.elastic = ElasticPlaneStress::from(e, nu, shear_factor);
-    m.k_a = e / (2 * (1 - nu));
+    m.elastic = ElasticPlaneStress::from(law.elastic, shear_factor);
+    m.k_a = 0.5 * (m.elastic.c11 + m.elastic.c12);
     m.k_b = 3 * m.elastic.shear;
     m.k_t = 3 * m.elastic.transverse;
-    if (law.rate_constant > 0 && law.rate_exponent > 0) {
-      m.rate_constant = law.rate_constant;
-      m.rate_power = 1 / law.rate_exponent;
-    }
-    m.rows = table.data();
-    m.row_count = table.size() / hardening_columns;
+    m.elastic_bulk = 1 / (3 * law.elastic.lambda + law.elastic.two_mu);
+    m.rate_law = law.rate_law;
+    m.hardening = law.hardening;
     return m;
   }
 
   void start(double* values) const {
     values[0] = 0;
-    values[1] = rows[1] - rows[2] * rows[0];
+    values[1] = hardening.initial();
   }
 
   template <class R>
+  [[gnu::always_inline]] void update(ShellPoint<R>& p, const StepTime& t, double* history_values) const {
+    const R sum = p.stress.xx + p.stress.yy;
+    update(p.stress, p.strain, t.dt, history_values);
+    // Elastic part -(nu/E) d(sum); the plastic part keeps the volume.
+    p.thickness_strain = R(elastic_bulk) * (p.stress.xx + p.stress.yy - sum) - (p.strain.xx + p.strain.yy);
+  }
+  template <class R>
   [[gnu::always_inline]] void update(PlaneStress<R>& s, const PlaneStress<R>& d, double dt, double* history_values) const {
-    elastic.update(s, d, dt, nullptr);
+    elastic.add_increment(s, d);
     double* const yield_values = history_values + block_lanes;
     const R static_yield = R::load(yield_values);
     const Trial<R> t(s);
@@ -69,8 +71,9 @@ struct PlasticPlaneStress {
     auto plastic = t.in_plane_sum + t.in_plane_rest + t.transverse > R(margin) * (static_yield * static_yield);
     if (!R::any(plastic)) return;
     R rate(1.0);
-    if (rate_constant > 0) {
-      rate = rate_factor(d, dt);
+    if (rate_law.active()) {
+      const R zz = d.xx + d.yy;
+      rate = rate_law.factor(d.xx * d.xx + d.yy * d.yy + zz * zz + R(0.5) * (d.xy * d.xy + d.yz * d.yz + d.zx * d.zx), dt);
       const R yield = rate * static_yield;
       plastic = t.in_plane_sum + t.in_plane_rest + t.transverse > R(margin) * (yield * yield);
       if (!R::any(plastic)) return;
@@ -104,27 +107,9 @@ struct PlasticPlaneStress {
   struct Return {
     R increment, sum, rest, transverse, static_yield;
   };
-  template <class R>
-  struct Piece {
-    R from, stress, slope, to;
-  };
-
-  /// The piece of the table that holds the plastic strain p: a search in halves, without branches.
-  template <class R>
-  [[gnu::always_inline]] Piece<R> piece(const R& p) const {
-    if (row_count == 1) return {R(rows[0]), R(rows[1]), R(rows[2]), R(rows[3])};
-    typename R::Mask row{};
-    for (std::size_t half = row_count / 2; half > 0; half /= 2) {
-      const typename R::Mask next = row + static_cast<std::int64_t>(half * hardening_columns);
-      const typename R::Mask below = R::gather(rows, next) > p;
-      row = below ? row : next;
-    }
-    return {R::gather(rows, row), R::gather(rows + 1, row), R::gather(rows + 2, row), R::gather(rows + 3, row)};
-  }
-
   template <class R, class Mask>
   [[gnu::always_inline]] Return<R> return_map(const Trial<R>& t, const Mask& plastic, const R& strain, const R& rate) const {
-    Piece<R> h = piece(strain);
+    auto h = hardening.piece(strain);
     Return<R> r{};
     R yield, to_sum, to_rest, to_transverse;
     for (int i = 0; i < iterations; ++i) {
@@ -145,8 +130,8 @@ struct PlasticPlaneStress {
       r.increment += select(active, square * excess / fall, R(0.0));
       const R now = strain + r.increment;
       const Mask left = active & ((now > h.to) | (now < h.from));
-      if (row_count > 1 && R::any(left)) {
-        const Piece<R> other = piece(now);
+      if (hardening.row_count > 1 && R::any(left)) {
+        const auto other = hardening.piece(now);
         h = {select(left, other.from, h.from), select(left, other.stress, h.stress), select(left, other.slope, h.slope),
              select(left, other.to, h.to)};
       }
@@ -155,15 +140,6 @@ struct PlasticPlaneStress {
     r.rest = yield * to_rest;
     r.transverse = yield * to_transverse;
     return r;
-  }
-
-  template <class R>
-  [[gnu::always_inline]] R rate_factor(const PlaneStress<R>& d, double dt) const {
-    const R zz = d.xx + d.yy;
-    const R square = d.xx * d.xx + d.yy * d.yy + zz * zz + R(0.5) * (d.xy * d.xy + d.yz * d.yz + d.zx * d.zx);
-    const double scale = dt > 0 ? 1 / (dt * rate_constant) : 0.0;
-    const R relative = max(sqrt(square) * R(scale), R(1e-200));  // the logarithm wants more than 0
-    return R(1.0) + exp(log(relative) * R(rate_power));
   }
 };
 

@@ -1,0 +1,176 @@
+#include "kardan/elements/tiles/tile_elements.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+
+namespace kardan {
+
+TileKernel kernel_for(const TileKernels& kernels, const Law& law) {
+  if (law.inlined == InlinedLaw::elastic && kernels.elastic) return kernels.elastic;
+  if (law.inlined == InlinedLaw::piecewise_plastic && kernels.piecewise_plastic) return kernels.piecewise_plastic;
+  return kernels.called;
+}
+
+TileElements::TileElements(const TileElementsInput& input, std::size_t node_count)
+    : input_(input), mesh_(cut_tiles(input.tiles)), slots_(mesh_, node_count, input.components) {
+  input_.tiles.elements = {};
+  input_.tiles.nodes = {};
+  governing_.kind = input.kind;
+}
+
+std::vector<PartIndex> TileElements::parts() const {
+  std::vector<PartIndex> parts;
+  for (const Tile& tile : mesh_.tiles) {
+    if (parts.empty() || parts.back() != tile.part) parts.push_back(tile.part);
+  }
+  return parts;
+}
+
+void TileElements::set_kernel(PartIndex part, PartKernel kernel) {
+  kernels_.resize(std::max(kernels_.size(), static_cast<std::size_t>(part) + 1));
+  kernels_[part] = std::move(kernel);
+}
+
+void TileElements::start(State& state) {
+  if (empty()) return;
+  std::size_t size = 0;
+  bool deletable = false;
+  for (const Tile& tile : mesh_.tiles) {
+    history_begin_.push_back(size);
+    size += tile.blocks * block_lanes * kernels_[tile.part].history_size;
+    tile_of_block_.resize(tile.first_block + tile.blocks, static_cast<Index>(history_begin_.size()) - 1);
+    deletable = deletable || kernels_[tile.part].can_fail;
+  }
+  history_.assign(size, 0.0);
+  internal_.assign(mesh_.tiles.size(), 0.0);
+  hourglass_.assign(mesh_.tiles.size(), 0.0);
+  outcome_.resize(mesh_.tiles.size());
+  place_.assign(input_.ids.size(), none);
+  for (const Tile& tile : mesh_.tiles) {
+    for (std::size_t i = tile.first_block * block_lanes; i < tile.first_block * block_lanes + tile.elements; ++i) {
+      place_[mesh_.element[i]] = static_cast<Index>(i);
+    }
+  }
+  for (const NodeIndex n : slots_.nodes()) state.nodes.needed[n] = 1;
+  const std::string writer = "elements.internal_forces";
+  state.registry.add({input_.name + ".history", "mixed", writer}, history_);
+  state.registry.add({input_.name + ".internal_energy", "energy", writer}, internal_);
+  state.registry.add({input_.name + ".hourglass_energy", "energy", writer}, hourglass_);
+  if (deletable) {
+    alive_.assign(mesh_.element.size(), 1.0);
+    energy_.assign(mesh_.element.size(), 0.0);
+    state.registry.add({input_.name + ".alive", "1", writer}, alive_);
+    state.registry.add({input_.name + ".element_energy", "energy", writer}, energy_);
+  }
+}
+
+TileElements::Place TileElements::find(Index element) const {
+  const Index place = place_.empty() ? none : place_[element];
+  if (place == none) return {};
+  const auto tile = static_cast<std::size_t>(tile_of_block_[static_cast<std::size_t>(place) / block_lanes]);
+  return {tile, static_cast<std::size_t>(place) - mesh_.tiles[tile].first_block * block_lanes, true};
+}
+
+const double* TileElements::values_of(Index element) const {
+  const Place p = find(element);
+  return p.here ? const_cast<TileElements*>(this)->values(p.tile, p.element) : nullptr;
+}
+
+double TileElements::alive(Index element) const {
+  return alive_.empty() || place_[element] == none ? 1.0 : alive_[static_cast<std::size_t>(place_[element])];
+}
+
+double TileElements::energy(Index element) const {
+  return energy_.empty() || place_[element] == none ? 0.0 : energy_[static_cast<std::size_t>(place_[element])];
+}
+
+void TileElements::run_tile(std::size_t t, const State& state, std::vector<double>& scratch) {
+  const Tile& tile = mesh_.tiles[t];
+  const bool turns = input_.components == 6;
+  const std::size_t stride = node_stride(input_.components);
+  scratch.resize(std::max(scratch.size(), tile.nodes * stride));
+  const NodeIndex* node = mesh_.node.data() + tile.first_node;
+  for (std::size_t k = 0; k < tile.nodes; ++k) {
+    const Vec3 &x = state.nodes.x[node[k]], &v = state.nodes.v[node[k]];
+    double* local = scratch.data() + stride * k;
+    local[0] = x.x, local[1] = x.y, local[2] = x.z;
+    local[4] = v.x, local[5] = v.y, local[6] = v.z;
+    if (turns) {
+      const Vec3& w = state.nodes.omega[node[k]];
+      local[8] = w.x, local[9] = w.y, local[10] = w.z;
+    }
+  }
+  const PartKernel& part = kernels_[tile.part];
+  const std::size_t first = tile.first_block * block_lanes;
+  TileWork work;
+  work.properties = part.properties.get();
+  work.connectivity = mesh_.connectivity.data() + first * mesh_.nodes_per_element;
+  work.elements = tile.elements;
+  work.node = scratch.data();
+  work.nodes = tile.nodes;
+  work.step = {state.clock.dt_previous, state.clock.time};
+  work.history = history_.data() + history_begin_[t];
+  if (part.can_fail) {
+    work.alive = alive_.data() + first;
+    work.energy = energy_.data() + first;
+  }
+  work.force = slots_.slots(tile);
+  part.kernel(work);
+  internal_[t] += work.internal_increment;
+  hourglass_[t] += work.hourglass_increment;
+  outcome_[t] = {work.time_step, work.governing, work.broken};
+}
+
+void TileElements::internal_forces(const Model& model, State& state,
+                                   const std::function<std::string(const State&, Index)>& fault) {
+  if (empty()) return;
+  scratch_.resize(static_cast<std::size_t>(omp_get_max_threads()));
+  const auto count = static_cast<std::ptrdiff_t>(mesh_.tiles.size());
+#pragma omp parallel for schedule(dynamic) if (count > 1)
+  for (std::ptrdiff_t t = 0; t < count; ++t) {
+    run_tile(static_cast<std::size_t>(t), state, scratch_[static_cast<std::size_t>(omp_get_thread_num())]);
+  }
+  governing_ = {};
+  governing_.kind = input_.kind;
+  for (std::size_t t = 0; t < mesh_.tiles.size(); ++t) {
+    const std::size_t first = mesh_.tiles[t].first_block * block_lanes;
+    const Outcome& o = outcome_[t];
+    if (o.broken != 0) {
+      const Index element = mesh_.element[first + o.broken - 1];
+      report_broken(model, state, element, fault(state, element));
+    }
+    if (o.time_step < governing_.time_step) {
+      governing_.time_step = o.time_step;
+      governing_.element = input_.ids[mesh_.element[first + o.governing]];
+    }
+  }
+}
+
+void TileElements::report_broken(const Model& model, const State& state, Index element, const std::string& fault) const {
+  const Place p = find(element);
+  const Tile& tile = mesh_.tiles[p.tile];
+  std::string text = fmt::format("{} {} of part {} {} at t = {:g}; nodes", input_.element_name, input_.ids[element],
+                                 model.parts[tile.part].id, fault, state.clock.time);
+  std::vector<NodeIndex> nodes;
+  for (std::size_t a = 0; a < mesh_.nodes_per_element; ++a) {
+    const std::size_t base = (tile.first_block + p.element / block_lanes) * mesh_.nodes_per_element * block_lanes;
+    const NodeIndex n = mesh_.node[tile.first_node + mesh_.connectivity[base + a * block_lanes + p.element % block_lanes]];
+    if (std::find(nodes.begin(), nodes.end(), n) == nodes.end()) nodes.push_back(n);
+  }
+  for (const NodeIndex n : nodes) {
+    const Vec3& x = state.nodes.x[n];
+    text += fmt::format(" {} ({:.6g}, {:.6g}, {:.6g})", model.nodes.id[n], x.x, x.y, x.z);
+  }
+  throw RunError(text);
+}
+
+void TileElements::add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const {
+  for (std::size_t t = 0; t < internal_.size(); ++t) {
+    internal[mesh_.tiles[t].part] += internal_[t];
+    hourglass[mesh_.tiles[t].part] += hourglass_[t];
+  }
+}
+
+}  // namespace kardan

@@ -1,0 +1,124 @@
+// Deformable elements of one kind of connectivity: tiles, histories, the loop over tiles, energies, deletion, stable step. A folder of
+// formulations (shell, solid, beam) says which kernel computes a part and what it is made of.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kardan/elements/governing.hpp"
+#include "kardan/elements/tiles/tile_work.hpp"
+#include "kardan/materials/law.hpp"
+#include "kardan/model/model.hpp"
+#include "kardan/parallel/tile.hpp"
+#include "kardan/state/state.hpp"
+
+namespace kardan {
+
+/// How the elements of a part are computed.
+struct PartKernel {
+  TileKernel kernel = nullptr;
+  std::shared_ptr<const void> properties;  ///< of the type that the kernel knows
+  std::size_t history_size = 0;            ///< values of an element
+  bool can_fail = false;                   ///< its elements may be deleted
+};
+
+/// The entry of a formulation for a law.
+TileKernel kernel_for(const TileKernels& kernels, const Law& law);
+
+/// What is tiled. The spans must outlive the TileElements, but for TileInput::elements and ::nodes.
+struct TileElementsInput {
+  std::string name;                ///< of the arrays in the registry: "shells"
+  const char* element_name = "";   ///< "shell", for messages
+  ElementKind kind = ElementKind::shell;
+  std::span<const UserId> ids;     ///< by element of the model
+  TileInput tiles;
+  std::size_t components = 3;      ///< of the nodal forces: 3, or 6 with moments
+};
+
+class TileElements {
+ public:
+  TileElements(const TileElementsInput& input, std::size_t node_count);
+
+  bool empty() const { return mesh_.empty(); }
+  /// Parts that have elements here, ascending.
+  std::vector<PartIndex> parts() const;
+
+  /// Set-up, once: every part's kernel, then start(), then for_each() to fill the histories, which are zero.
+  void set_kernel(PartIndex part, PartKernel kernel);
+  void start(State& state);
+
+  /// f(element of the model, its part, its values): value k at values[k * block_lanes]. Empty lanes of last blocks, which repeat the
+  /// last element, are met too unless `real_only`.
+  template <class F>
+  void for_each(F&& f, bool real_only = false) {
+    for (std::size_t t = 0; t < mesh_.tiles.size(); ++t) {
+      const Tile& tile = mesh_.tiles[t];
+      const std::size_t count = real_only ? tile.elements : tile.blocks * block_lanes;
+      for (std::size_t i = 0; i < count; ++i) f(mesh_.element[tile.first_block * block_lanes + i], tile.part, values(t, i));
+    }
+  }
+  template <class F>
+  void for_each(F&& f) const {
+    const_cast<TileElements*>(this)->for_each([&](Index e, PartIndex p, double* own) { f(e, p, static_cast<const double*>(own)); }, true);
+  }
+  /// Values of an element, null if it is not here.
+  const double* values_of(Index element) const;
+  /// Part of an element that is here.
+  PartIndex part_of(Index element) const { return mesh_.tiles[find(element).tile].part; }
+  /// 1, or 0 if the element has been deleted; 1 where it is not here.
+  double alive(Index element) const;
+  /// Whether some element may be deleted.
+  bool deletable() const { return !alive_.empty(); }
+  /// Internal energy of an element at t_n; 0 where nothing of its part can be deleted.
+  double energy(Index element) const;
+
+  /// Stresses to t_n and forces into the slots.
+  /// @param fault says what is wrong with an element: "has no area …"
+  /// @throws RunError naming the element that the kernel could not compute, with its nodes.
+  void internal_forces(const Model& model, State& state, const std::function<std::string(const State&, Index)>& fault);
+  /// Adds the forces of the cycle to the nodes begin <= n < end.
+  void add_forces(State& state, NodeIndex begin, NodeIndex end) const {
+    slots_.add_to(state.nodes.force, state.nodes.moment, begin, end);
+  }
+  const Governing& governing() const { return governing_; }
+  /// Adds the energies at t_n, by part.
+  void add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const;
+
+ private:
+  /// What a tile reports of a cycle.
+  struct Outcome {
+    double time_step = 0;
+    std::size_t governing = 0, broken = 0;
+  };
+  struct Place {
+    std::size_t tile = 0, element = 0;
+    bool here = false;
+  };
+
+  double* values(std::size_t tile, std::size_t element) {
+    const std::size_t size = kernels_[mesh_.tiles[tile].part].history_size;
+    return history_.data() + history_begin_[tile] + element / block_lanes * size * block_lanes + element % block_lanes;
+  }
+  Place find(Index element) const;
+  void run_tile(std::size_t tile, const State& state, std::vector<double>& scratch);
+  [[noreturn]] void report_broken(const Model& model, const State& state, Index element, const std::string& fault) const;
+
+  TileElementsInput input_;
+  TileMesh mesh_;
+  SlotSum slots_;
+  std::vector<PartKernel> kernels_;           ///< by part of the model
+  std::vector<double> history_;               ///< blocks of all tiles
+  std::vector<std::size_t> history_begin_;    ///< by tile
+  std::vector<double> alive_, energy_;        ///< [block][lane]; empty where nothing can be deleted
+  std::vector<double> internal_, hourglass_;  ///< energies, by tile
+  std::vector<Outcome> outcome_;              ///< by tile
+  std::vector<std::vector<double>> scratch_;  ///< by thread
+  std::vector<Index> place_;                  ///< by element of the model: block * lanes + lane, or none
+  std::vector<Index> tile_of_block_;
+  Governing governing_;
+};
+
+}  // namespace kardan

@@ -1,0 +1,53 @@
+// One tile in one cycle: what a kernel reads and writes, whatever the formulation. Plain pointers, so that the file can be included by
+// translation units of every instruction set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kardan/base/lanes.hpp"
+#include "kardan/materials/law_entry.hpp"
+
+namespace kardan {
+
+/// Doubles of a tile's node: position at t_n and velocity at t_{n-1/2}, filled up to four each; with rotations also the angular
+/// velocity.
+constexpr std::size_t node_stride(std::size_t components) { return components == 6 ? 12 : 8; }
+
+/// Local arrays are indexed by the tile's own nodes; history, alive, energy and steps by [block] … [lane].
+struct TileWork {
+  const void* properties = nullptr;             ///< of the part, of the type that the kernel knows
+  const std::uint16_t* connectivity = nullptr;  ///< [block][node of the element][lane]
+  std::size_t elements = 0;
+  const double* node = nullptr;                 ///< [node][node_stride]
+  std::size_t nodes = 0;
+  StepTime step;
+  double* history = nullptr;                    ///< [block][values of an element][lane]
+  double* alive = nullptr;                      ///< [block][lane] in and out: 1, or 0 if deleted; null where nothing can be deleted
+  double* energy = nullptr;                     ///< [block][lane] internal energy of each element, added to; may be null
+  double* steps = nullptr;                      ///< [block][lane] out: stable step of each element; may be null
+  double* force = nullptr;                      ///< [node][3 or 6] force (and moment) on the nodes; overwritten
+  double internal_increment = 0;                ///< out: work of the stresses over the step
+  double hourglass_increment = 0;               ///< out
+  double time_step = 0;                         ///< out: smallest stable step
+  std::size_t governing = 0;                    ///< out: its element in the tile
+  std::size_t broken = 0;                       ///< out: 1 + an element without size or with a value that is not finite; 0 = none
+};
+
+using TileKernel = void (*)(TileWork&);
+
+/// A formulation compiled for one instruction set: with the laws that are worth inlining, and with a law that is called.
+struct TileKernels {
+  TileKernel elastic = nullptr;            ///< null: use `called`
+  TileKernel piecewise_plastic = nullptr;  ///< likewise
+  TileKernel called = nullptr;
+};
+
+/// The law of a part as a kernel's properties hold it.
+struct LawOfTile {
+  const void* constants = nullptr;
+  PointUpdate update = nullptr;
+  std::size_t history = 0, tensors = 0;
+};
+
+}  // namespace kardan

@@ -1,0 +1,61 @@
+// Laws of material as the elements see them: constants made from the model, and plain function pointers for the instruction set of
+// the run. The mathematics is in one header a law; the row that gives it to a keyword is in law_table.cpp.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kardan/base/diagnostics.hpp"
+#include "kardan/materials/law_entry.hpp"
+#include "kardan/model/model.hpp"
+
+namespace kardan {
+
+enum class LawUse { solid, shell };
+
+/// Laws that element kernels are compiled for; all others are called through Law::update.
+enum class InlinedLaw { no, elastic, piecewise_plastic };
+
+/// A material made ready for the elements of a part.
+struct Law {
+  std::shared_ptr<const void> constants;  ///< of the type that `update` knows
+  PointUpdate update = nullptr;
+  InlinedLaw inlined = InlinedLaw::no;
+  std::vector<double> start;              ///< history of a point at the start; its size is the law's history
+  std::size_t tensors = 0;                ///< symmetric tensors that the history begins with
+  double density = 0;
+  double longitudinal = 0, shear = 0;     ///< lambda + 2 mu and mu at the start
+  double youngs_modulus = 0, poissons_ratio = 0;  ///< of the same two
+  bool can_fail = false;
+  /// Place of the effective plastic strain in the history, for output; npos if the law has none.
+  std::size_t plastic_strain = npos;
+  static constexpr std::size_t npos = static_cast<std::size_t>(-1);
+
+  std::size_t history() const { return start.size(); }
+};
+
+/// What a law is made from.
+struct LawSource {
+  const Model& model;
+  const Material& material;
+  Diagnostics& diagnostics;
+  std::string name;                                      ///< "material 3"
+  std::vector<std::shared_ptr<std::vector<double>>> kept; ///< tables that constants point into
+
+  /// Keeps a table as long as the law.
+  const std::vector<double>& keep(std::vector<double> table) {
+    return *kept.emplace_back(std::make_shared<std::vector<double>>(std::move(table)));
+  }
+};
+
+/// Density and Young's modulus positive, -1 < nu < 0.5; complains otherwise.
+bool check_elastic_constants(LawSource& source, double density, double youngs_modulus, double poissons_ratio);
+
+/// The law of a part's material for solids or shells (`shear_factor`: SHRF of shells). Without a value the diagnostics say why:
+/// a law that this version does not have for these elements, or parameters it cannot be computed with.
+std::optional<Law> make_law(const Model& model, const Part& part, LawUse use, double shear_factor, Diagnostics& diagnostics);
+
+}  // namespace kardan

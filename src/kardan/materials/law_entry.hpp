@@ -1,0 +1,16 @@
+// One law of material compiled for one instruction set, as plain function pointers.
+#pragma once
+
+#include "kardan/materials/point.hpp"
+
+namespace kardan {
+
+/// Updates the points of a pack: `law` the constants, `point` a MaterialPoint or ShellPoint on the pack of the instruction set.
+using PointUpdate = void (*)(const void* law, void* point, const StepTime&, double* history);
+
+struct LawKernels {
+  PointUpdate solid = nullptr;
+  PointUpdate shell = nullptr;
+};
+
+}  // namespace kardan

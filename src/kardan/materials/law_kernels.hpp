@@ -1,0 +1,26 @@
+// Compiles a law for one instruction set; included by the *.isa.cpp files of materials/laws only.
+#pragma once
+
+#include "kardan/base/simd_math.hpp"
+#include "kardan/materials/law_entry.hpp"
+#include "kardan/materials/shell_law.hpp"
+
+namespace kardan::KARDAN_ISA_NAMESPACE {
+
+template <class Law>
+void update_solid(const void* law, void* point, const StepTime& t, double* history) {
+  static_cast<const Law*>(law)->update(*static_cast<MaterialPoint<Pack>*>(point), t, history);
+}
+template <class Law>
+void update_shell(const void* law, void* point, const StepTime& t, double* history) {
+  static_cast<const ShellLawOf<Law>*>(law)->update(*static_cast<ShellPoint<Pack>*>(point), t, history);
+}
+
+}  // namespace kardan::KARDAN_ISA_NAMESPACE
+
+/// The kernels of the law `Type` as `name`_kernels; law_table.cpp declares it by KARDAN_ISA_OBJECT.
+#define KARDAN_LAW_KERNELS(Type, name)                                                              \
+  namespace kardan::KARDAN_ISA_NAMESPACE {                                                          \
+  extern const LawKernels name##_kernels;                                                           \
+  const LawKernels name##_kernels = {&update_solid<Type>, &update_shell<Type>};                     \
+  }

@@ -1,0 +1,118 @@
+// Which law computes which material: one row a law.
+#include <algorithm>
+#include <iterator>
+#include <type_traits>
+
+#include "kardan/base/isa.hpp"
+#include "kardan/materials/law.hpp"
+#include "kardan/materials/laws/plastic_kinematic.hpp"
+#include "kardan/materials/shell_law.hpp"
+
+namespace kardan {
+
+KARDAN_ISA_OBJECT(LawKernels, elastic_kernels);
+KARDAN_ISA_OBJECT(LawKernels, piecewise_plastic_kernels);
+KARDAN_ISA_OBJECT(LawKernels, plastic_kinematic_kernels);
+
+namespace {
+
+using Maker = std::optional<Law> (*)(LawSource&, LawUse, double shear_factor, const LawKernels&);
+
+struct Row {
+  int material;                 ///< LS-DYNA's number
+  bool solids, shells;
+  Maker make;
+  const ForEachIsa<LawKernels>* kernels;
+};
+
+template <class Constants>
+struct Kept {
+  Constants constants;
+  std::vector<std::shared_ptr<std::vector<double>>> tables;
+};
+
+template <class Constants>
+void keep_constants(Law& law, const Constants& constants, const LawSource& source) {
+  auto kept = std::make_shared<Kept<Constants>>(Kept<Constants>{constants, source.kept});
+  law.constants = std::shared_ptr<const void>(kept, &kept->constants);
+  law.start.resize(Constants::history);
+  constants.start(law.start.data());
+}
+
+template <class L>
+std::optional<Law> make(LawSource& source, LawUse use, double shear_factor, const LawKernels& kernels) {
+  const std::optional<L> own = L::make(source);
+  if (!own) return std::nullopt;
+  Law law;
+  law.longitudinal = own->longitudinal();
+  law.shear = own->shear();
+  const double lambda = law.longitudinal - 2 * law.shear;
+  law.youngs_modulus = law.shear * (3 * lambda + 2 * law.shear) / (lambda + law.shear);
+  law.poissons_ratio = lambda / (2 * (lambda + law.shear));
+  law.tensors = L::tensors;
+  if constexpr (requires { L::plastic_strain; }) law.plastic_strain = L::plastic_strain;
+  if constexpr (requires { own->can_fail(); }) law.can_fail = own->can_fail();
+  if constexpr (std::is_same_v<L, Elastic>) law.inlined = InlinedLaw::elastic;
+  if constexpr (std::is_same_v<L, PiecewisePlastic>) law.inlined = InlinedLaw::piecewise_plastic;
+  if (use == LawUse::solid) {
+    law.update = kernels.solid;
+    keep_constants(law, *own, source);
+  } else {
+    law.update = kernels.shell;
+    keep_constants(law, ShellLawOf<L>::from(*own, shear_factor), source);
+  }
+  return law;
+}
+
+constexpr Row rows[] = {
+    //  number, solids, shells
+    {1, true, true, &make<Elastic>, &elastic_kernels_of_isa},
+    {3, true, true, &make<PlasticKinematic>, &plastic_kinematic_kernels_of_isa},
+    {24, true, true, &make<PiecewisePlastic>, &piecewise_plastic_kernels_of_isa},
+};
+
+/// LS-DYNA's number and the density of a material.
+struct Identify {
+  std::pair<int, double> operator()(const ElasticMaterial& m) const { return {1, m.density}; }
+  std::pair<int, double> operator()(const PiecewisePlasticMaterial& m) const { return {24, m.density}; }
+  std::pair<int, double> operator()(const FieldMaterial& m) const { return {m.number, m.density}; }
+  std::pair<int, double> operator()(const RigidMaterial& m) const { return {20, m.density}; }
+  std::pair<int, double> operator()(const SpringMaterial&) const { return {0, 0}; }
+  std::pair<int, double> operator()(const UnsupportedMaterial& m) const { return {0, m.density}; }
+};
+
+std::string keyword_of(const Material& material) {
+  if (const auto* m = std::get_if<UnsupportedMaterial>(&material.law)) return " (" + m->keyword + ")";
+  if (const auto* m = std::get_if<FieldMaterial>(&material.law)) return " (" + m->keyword + ")";
+  return {};
+}
+
+}  // namespace
+
+bool check_elastic_constants(LawSource& source, double density, double youngs_modulus, double poissons_ratio) {
+  if (density > 0 && youngs_modulus > 0 && poissons_ratio > -1 && poissons_ratio < 0.5) return true;
+  source.diagnostics.error(source.name + " of deformable elements has density " + std::to_string(density) + ", Young's modulus " +
+                               std::to_string(youngs_modulus) + " and Poisson's ratio " + std::to_string(poissons_ratio),
+                           "give RO > 0, E > 0 and -1 < PR < 0.5", "*MAT");
+  return false;
+}
+
+std::optional<Law> make_law(const Model& model, const Part& part, LawUse use, double shear_factor, Diagnostics& diagnostics) {
+  const Material& material = model.materials[static_cast<std::size_t>(part.material)];
+  const auto [number, density] = std::visit(Identify{}, material.law);
+  const auto row = std::find_if(std::begin(rows), std::end(rows), [&, n = number](const Row& r) {
+    return r.material == n && (use == LawUse::solid ? r.solids : r.shells);
+  });
+  LawSource source{model, material, diagnostics, "material " + std::to_string(material.id), {}};
+  if (row == std::end(rows)) {
+    diagnostics.error("part " + std::to_string(part.id) + " has deformable " + (use == LawUse::solid ? "solids" : "shells") + " of " +
+                          source.name + keyword_of(material) + ", which this version does not compute",
+                      "use a material that docs/keywords.md names for them, or make the part rigid (*MAT_RIGID)", "*PART");
+    return std::nullopt;
+  }
+  std::optional<Law> law = row->make(source, use, shear_factor, row->kernels->running());
+  if (law) law->density = density;
+  return law;
+}
+
+}  // namespace kardan

@@ -1,0 +1,3 @@
+#include "kardan/materials/law_kernels.hpp"
+
+KARDAN_LAW_KERNELS(PiecewisePlastic, piecewise_plastic)

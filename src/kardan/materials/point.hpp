@@ -1,0 +1,85 @@
+// What a law of material sees: one integration point over one step, in axes that turn with the material.
+//
+// A law is a plain struct
+//   static constexpr std::size_t history;       values that a point keeps beside its stress
+//   static constexpr std::size_t tensors;       how many symmetric tensors (xx, yy, zz, xy, yz, zx) these begin with; the elements
+//                                               turn them with the material, as they turn the stress
+//   void start(double* values) const;           values[0] to values[history - 1] at the start
+//   double longitudinal() const, shear() const; lambda + 2 mu and mu of the start: time step, hourglass control, bulk viscosity
+//   template <class R> void update(MaterialPoint<R>&, const StepTime&, double* history) const;
+// R is a pack of doubles, value i of the pack's points lies at history + i * block_lanes. A law must not branch on data other than
+// "does any lane need this", gives each lane what it would get alone, and does not allocate. docs/adding-a-material.md shows
+// how one is added.
+#pragma once
+
+#include <cstddef>
+
+#include "kardan/base/lanes.hpp"
+
+namespace kardan {
+
+/// A symmetric tensor: stress, or strain increment (shears are entries of the tensor, half the engineering strain).
+template <class R>
+struct SymmetricTensor {
+  R xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
+};
+
+template <class R>
+[[gnu::always_inline]] inline SymmetricTensor<R> load_tensor(const double* h) {
+  return {R::load(h),
+          R::load(h + block_lanes),
+          R::load(h + 2 * block_lanes),
+          R::load(h + 3 * block_lanes),
+          R::load(h + 4 * block_lanes),
+          R::load(h + 5 * block_lanes)};
+}
+template <class R>
+[[gnu::always_inline]] inline void store_tensor(const SymmetricTensor<R>& s, double* h) {
+  s.xx.store(h);
+  s.yy.store(h + block_lanes);
+  s.zz.store(h + 2 * block_lanes);
+  s.xy.store(h + 3 * block_lanes);
+  s.yz.store(h + 4 * block_lanes);
+  s.zx.store(h + 5 * block_lanes);
+}
+
+/// a : b.
+template <class R>
+[[gnu::always_inline]] inline R contraction(const SymmetricTensor<R>& a, const SymmetricTensor<R>& b) {
+  const R shear = a.xy * b.xy + a.yz * b.yz + a.zx * b.zx;
+  return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + shear + shear;
+}
+
+/// The step that brings a point from t_{n-1} to t_n.
+struct StepTime {
+  double dt = 0;    ///< t_n - t_{n-1}; 0 in the first cycle
+  double time = 0;  ///< t_n
+};
+
+/// A point in three dimensions.
+template <class R>
+struct MaterialPoint {
+  SymmetricTensor<R> stress;  ///< in: at t_{n-1}, out: at t_n
+  SymmetricTensor<R> strain;  ///< increment over the step
+  R volume{1.0};              ///< V/V0 at t_n
+  R viscosity{};              ///< pressure of bulk viscosity at t_{n-1}: heats a law with an equation of state
+  R modulus{};                ///< in: longitudinal(); out: rho0 c^2 for the time step, larger where the material has stiffened
+  R failed{};                 ///< out: 1 where the point has failed and its element is to be deleted
+};
+
+/// Stress or strain increment of a shell at one point; shear strains are engineering strains.
+template <class R>
+struct PlaneStress {
+  R xx{}, yy{}, xy{}, yz{}, zx{};
+};
+
+/// A point of a shell: the stress normal to the shell vanishes.
+template <class R>
+struct ShellPoint {
+  PlaneStress<R> stress;  ///< in: at t_{n-1}, out: at t_n
+  PlaneStress<R> strain;  ///< increment over the step
+  R thickness_strain{};   ///< out: increment of the normal strain
+  R failed{};             ///< out: 1 where the point has failed
+};
+
+}  // namespace kardan
