@@ -199,9 +199,9 @@ TEST(Shell, StretchOfOneElementFollowsTheLogarithmicStrain) {
 }
 
 TEST(Shell, StableStepIsLengthOverPlateWaveSpeed) {
-  Bench b;
-  const double c = std::sqrt(e_modulus / (density * 0.91));
-  mesh(b, b.shell_part(0.1, density, e_modulus, 0.3), 2, 1, 2.4, 0.5,
+  Bench b;  // without lateral contraction free edges change nothing
+  const double c = std::sqrt(e_modulus / density);
+  mesh(b, b.shell_part(0.1, density, e_modulus, 0.0, 2, 0.5), 2, 1, 2.4, 0.5,
        [](const Vec3& x) { return x.x < 1.3 ? x : Vec3{x.x - 0.2, x.y, 0}; });
   b.start();
   b.forces();

@@ -55,7 +55,6 @@ Model column(int count) {
   }
   model.control.termination.end_time = 1e-2;
   model.control.hourglass_type = 4;
-  model.control.time_step.scale = 0.67;  // one element wide: free to swell sideways, see docs/limits.md
   return model;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "kardan/elements/free_sides.hpp"
 #include "kardan/elements/hourglass.hpp"
 #include "kardan/elements/lumped_mass.hpp"
 
@@ -101,6 +102,14 @@ void ShellForces::start_histories(const Model& model) {
       for (std::size_t k = 0; k < law.history(); ++k) own[(i * per_point + 5 + k) * block_lanes] = law.start[k];
     }
     own[(shell_history_size(points, law.history()) - 1) * block_lanes] = mean_thickness(model, shell);
+  });
+  const std::vector<std::uint8_t> edges = free_edges(model.shells);
+  elements_.scale_steps([&](Index shell, PartIndex part) {
+    const Law& law = laws_[part];
+    const ShellSection& section = model.sections[model.parts[part].section].shell;
+    const double thickness = mean_thickness(model, shell);
+    const FreeBody body{law.density + section.mass_per_area / thickness, law.shear, law.longitudinal, section.shrf * law.shear};
+    return free_shell_factor(model, shell, edges[shell], body, thickness);
   });
 }
 

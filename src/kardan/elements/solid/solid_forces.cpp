@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "kardan/elements/free_sides.hpp"
 #include "kardan/elements/geometry.hpp"
 #include "kardan/elements/hourglass.hpp"
 #include "kardan/elements/solid/solid_kernel.hpp"
@@ -82,6 +83,10 @@ void SolidForces::start_histories(const Model& model) {
     own[solid_history::size * block_lanes] = std::cbrt(volume);
     const std::vector<double>& start = laws_[part].start;
     for (std::size_t k = 0; k < start.size(); ++k) own[(solid_history::law + k) * block_lanes] = start[k];
+  });
+  const std::vector<std::uint8_t> faces = free_faces(model.solids);
+  elements_.scale_steps([&](Index solid, PartIndex part) {
+    return free_solid_factor(model, solid, faces[solid], {laws_[part].density, laws_[part].shear, laws_[part].longitudinal, 0});
   });
 }
 

@@ -116,6 +116,7 @@ void TileElements::run_tile(std::size_t t, const State& state, std::vector<doubl
     work.alive = alive_.data() + first;
     work.energy = energy_.data() + first;
   }
+  if (!step_factor_.empty() && !step_factor_[t].empty()) work.step_factor = step_factor_[t].data();
   work.force = slots_.slots(tile);
   part.kernel(work);
   internal_[t] += work.internal_increment;

@@ -2,6 +2,7 @@
 // formulations (shell, solid, beam) says which kernel computes a part and what it is made of.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <span>
@@ -48,6 +49,18 @@ class TileElements {
 
   /// Set-up, once: every part's kernel, then start(), then for_each() to fill the histories, which are zero.
   void set_kernel(PartIndex part, PartKernel kernel);
+  /// After start(): the stable steps of elements are multiplied by factor(element of the model, its part); see free_sides.hpp.
+  template <class F>
+  void scale_steps(F&& factor) {
+    step_factor_.resize(mesh_.tiles.size());
+    for (std::size_t t = 0; t < mesh_.tiles.size(); ++t) {
+      const Tile& tile = mesh_.tiles[t];
+      const Index* element = mesh_.element.data() + tile.first_block * block_lanes;
+      std::vector<double> factors(tile.elements);
+      for (std::size_t i = 0; i < tile.elements; ++i) factors[i] = factor(element[i], tile.part);
+      if (std::any_of(factors.begin(), factors.end(), [](double f) { return f != 1; })) step_factor_[t] = std::move(factors);
+    }
+  }
   void start(State& state);
 
   /// f(element of the model, its part, its values): value k at values[k * block_lanes]. Empty lanes of last blocks, which repeat the
@@ -112,6 +125,7 @@ class TileElements {
   std::vector<PartKernel> kernels_;           ///< by part of the model
   std::vector<double> history_;               ///< blocks of all tiles
   std::vector<std::size_t> history_begin_;    ///< by tile
+  std::vector<std::vector<double>> step_factor_;  ///< by tile and element; empty: 1
   std::vector<double> alive_, energy_;        ///< [block][lane]; empty where nothing can be deleted
   std::vector<double> internal_, hourglass_;  ///< energies, by tile
   std::vector<Outcome> outcome_;              ///< by tile

@@ -68,7 +68,7 @@ KARDAN_INLINE void for_each_block(TileWork& work, std::size_t components, std::s
         alive[l] = block.alive[l];
         if (!(alive[l] > 0)) block.time_step[l] = __builtin_inf();
       }
-      const double step = block.time_step[l];
+      const double step = work.step_factor ? work.step_factor[first + l] * block.time_step[l] : block.time_step[l];
       if (work.steps) work.steps[b * block_lanes + l] = step;
       if (!(step > 0) || !(block.internal[l] - block.internal[l] == 0)) work.broken = first + l + 1;
       if (step < work.time_step) {

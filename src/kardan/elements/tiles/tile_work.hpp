@@ -25,6 +25,7 @@ struct TileWork {
   double* history = nullptr;                    ///< [block][values of an element][lane]
   double* alive = nullptr;                      ///< [block][lane] in and out: 1, or 0 if deleted; null where nothing can be deleted
   double* energy = nullptr;                     ///< [block][lane] internal energy of each element, added to; may be null
+  const double* step_factor = nullptr;          ///< [element] on the stable step; null: 1
   double* steps = nullptr;                      ///< [block][lane] out: stable step of each element; may be null
   double* force = nullptr;                      ///< [node][3 or 6] force (and moment) on the nodes; overwritten
   double internal_increment = 0;                ///< out: work of the stresses over the step
