@@ -101,6 +101,23 @@ TEST(DeformableSolids, ColumnOnARigidBodyKeepsMomentumAndEnergy) {
   EXPECT_EQ(state.energy.part_internal[0], 0.0);
 }
 
+TEST(DeformableSolids, PartsReportTheirMassAndShareTheMomentum) {
+  Model model = column(8);
+  model.materials[0].law = model.materials[1].law;
+  model.control.termination.end_time = 1e-3;
+  Diagnostics diagnostics;
+  Solver solver(model, {}, diagnostics);
+  const State& state = solver.state();
+  EXPECT_NEAR(state.energy.part_mass[0], 7.8, 1e-9);
+  EXPECT_NEAR(state.energy.part_mass[1], 7 * 7.8, 1e-9);
+  double size = 0;
+  const auto start = momentum(state, &size);
+  EXPECT_EQ(solver.run(), StopReason::end_time);
+  ASSERT_EQ(state.energy.part_momentum.size(), 2u);
+  EXPECT_LT(norm(state.energy.part_momentum[0] + state.energy.part_momentum[1] - start[0]), 1e-11 * size);
+  EXPECT_GT(norm(state.energy.part_momentum[0]), 0.0);  // it began at rest
+}
+
 TEST(DeformableSolids, VelocitiesAgainstSupportsAreNoEnergyToBeginWith) {
   Model model = column(4);
   for (const NodeIndex n : model.solids.nodes[3]) model.nodes.constrained[static_cast<std::size_t>(n)] = 0b000001;  // x

@@ -82,6 +82,7 @@ void say_end(const Solver& solver, const std::string& failure, double seconds, L
   const char* kind = normal(solver.stop_reason()) ? "normal termination" : "error termination";
   log.line(fmt::format("{}: {} at t = {:g} after {} cycles and {:.2f} s", kind, to_string(solver.stop_reason()), clock.time,
                        clock.cycle, seconds));
+  log.line(energy_verdict(solver.model(), solver.state().energy));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -19,8 +20,11 @@ const char* key(StopReason reason) {
   return keys[static_cast<int>(reason)];
 }
 
+/// What was put in, to compare an error with.
+double given_energy(const EnergyLedger& e) { return std::abs(e.initial) + std::abs(e.external_work); }
+
 json energies(const EnergyLedger& e) {
-  const double given = std::abs(e.initial) + std::abs(e.external_work);
+  const double given = given_energy(e);
   return {{"kinetic", e.kinetic},
           {"internal", e.internal},
           {"spring_and_damper", e.spring_damper},
@@ -35,6 +39,20 @@ json energies(const EnergyLedger& e) {
           {"total", e.total()},
           {"ratio", e.ratio()},
           {"error", given > 0 ? (e.total() - e.initial - e.external_work) / given : 0.0}};
+}
+
+/// Energies of the parts that have any, at the last state.
+json parts(const Model& model, const EnergyLedger& e) {
+  json list = json::array();
+  for (std::size_t p = 0; p < model.parts.size() && p < e.part_kinetic.size(); ++p) {
+    if (e.part_kinetic[p] == 0 && e.part_internal[p] == 0 && e.part_hourglass[p] == 0) continue;
+    list.push_back({{"id", model.parts[p].id},
+                    {"title", model.parts[p].title},
+                    {"kinetic", e.part_kinetic[p]},
+                    {"internal", e.part_internal[p]},
+                    {"hourglass", e.part_hourglass[p]}});
+  }
+  return list;
 }
 
 json wall_seconds(const Solver& solver, const RunRecord& record) {
@@ -84,6 +102,7 @@ json summarize(const Solver& solver, const RunRecord& record) {
                       {"bodies", state.bodies.motion.size()}, {"joints", model.joints.size()}};
   summary["wall_seconds"] = wall_seconds(solver, record);
   summary["energies"] = energies(state.energy);
+  summary["parts"] = parts(model, state.energy);
   const RigidSystem::Separation separation = solver.rigid().largest_separation();
   summary["joint_separation"] = {{"distance", separation.distance}, {"angle", separation.angle}};
   if (separation.joint != none)
@@ -92,6 +111,21 @@ json summarize(const Solver& solver, const RunRecord& record) {
   summary["warnings"] = messages(record.diagnostics, Severity::warning);
   summary["notices"] = messages(record.diagnostics, Severity::notice);
   return summary;
+}
+
+std::string energy_verdict(const Model& model, const EnergyLedger& e) {
+  const double given = given_energy(e);
+  if (!(given > 0)) return "energy: none was given";
+  std::string text = fmt::format("energy: total {:.6g}, given {:.6g} (initial {:.6g} + external work {:.6g}), error {:.3f} %", e.total(),
+                                 e.initial + e.external_work, e.initial, e.external_work,
+                                 100 * (e.total() - e.initial - e.external_work) / given);
+  if (e.hourglass == 0) return text;
+  text += fmt::format("; hourglass {:.2f} % of internal", e.internal > 0 ? 100 * e.hourglass / e.internal : 0.0);
+  const auto worst = std::max_element(e.part_hourglass.begin(), e.part_hourglass.end());
+  if (worst == e.part_hourglass.end() || !(*worst > 0)) return text;
+  const auto p = static_cast<std::size_t>(worst - e.part_hourglass.begin());
+  return text + fmt::format(", most of it in part {}{} ({:.6g} beside {:.6g} internal)", model.parts[p].id,
+                            model.parts[p].title.empty() ? "" : " \"" + model.parts[p].title + "\"", *worst, e.part_internal[p]);
 }
 
 void write_summary(const std::filesystem::path& path, const json& summary) {

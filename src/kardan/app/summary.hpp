@@ -26,6 +26,9 @@ struct RunRecord {
 nlohmann::json summarize(const Solver& solver, const RunRecord& record);
 
 /// @throws RunError if the file cannot be written.
+/// For the end of the log: how well the energies balance, and which part's hourglass energy is worst.
+std::string energy_verdict(const Model& model, const EnergyLedger& energy);
+
 void write_summary(const std::filesystem::path& path, const nlohmann::json& summary);
 
 }  // namespace kardan::app

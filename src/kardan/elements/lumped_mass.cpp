@@ -90,6 +90,7 @@ void add_shells(const Model& model, State& state, Diagnostics& diagnostics) {
     const bool triangle = is_triangle(nodes);
     const double share = share_mass(state.nodes.mass, nodes, triangle ? 3 : 4, mass);
     if (part.rigid) continue;
+    state.energy.part_mass[static_cast<std::size_t>(shells.part[e])] += mass;
     const double inertia = share * std::max(thickness * thickness / 12.0, area / 8.0);
     for (std::size_t a = 0; a < (triangle ? 3u : 4u); ++a) state.nodes.inertia[static_cast<std::size_t>(nodes[a])] += inertia;
   }
@@ -110,7 +111,9 @@ void add_solids(const Model& model, State& state, Diagnostics& diagnostics) {
                         "*ELEMENT_SOLID");
       continue;
     }
-    share_mass(state.nodes.mass, nodes, distinct_nodes(nodes), std::abs(volume) * part.bulk.density);
+    const double mass = std::abs(volume) * part.bulk.density;
+    share_mass(state.nodes.mass, nodes, distinct_nodes(nodes), mass);
+    if (!part.rigid) state.energy.part_mass[static_cast<std::size_t>(solids.part[e])] += mass;
   }
 }
 
@@ -133,6 +136,7 @@ void add_beams(const Model& model, State& state, Diagnostics& diagnostics) {
       continue;
     }
     share_mass(state.nodes.mass, ends, 2, volume * part.bulk.density);
+    if (!part.rigid) state.energy.part_mass[static_cast<std::size_t>(beams.part[e])] += volume * part.bulk.density;
     if (section.elform == discrete_beam && !part.rigid) {
       for (const NodeIndex n : ends) state.nodes.inertia[static_cast<std::size_t>(n)] += 0.5 * section.inertia;
     }
@@ -180,10 +184,14 @@ double beam_area(const BeamSection& section) {
 }
 
 void add_lumped_masses(const Model& model, State& state, Diagnostics& diagnostics) {
+  state.energy.part_mass.assign(model.parts.size(), 0.0);
   add_shells(model, state, diagnostics);
   add_solids(model, state, diagnostics);
   add_beams(model, state, diagnostics);
-  for (const PointMass& m : model.masses) state.nodes.mass[static_cast<std::size_t>(m.node)] += m.mass;
+  for (const PointMass& m : model.masses) {
+    state.nodes.mass[static_cast<std::size_t>(m.node)] += m.mass;
+    if (m.part != none && !model.rigid_part(m.part)) state.energy.part_mass[static_cast<std::size_t>(m.part)] += m.mass;
+  }
   for (const PointInertia& m : model.inertias) {
     state.nodes.mass[static_cast<std::size_t>(m.node)] += m.mass;
     state.nodes.inertia[static_cast<std::size_t>(m.node)] += trace(m.inertia) / 3.0;

@@ -199,16 +199,22 @@ void NodeMover::drift(State& state) const {
 void NodeMover::account(State& state) const {
   const NodeState& nodes = state.nodes;
   EnergyLedger& energy = state.energy;
+  energy.part_momentum.assign(energy.part_kinetic.size(), Vec3{});
+  const auto add = [&](PartIndex part, double fraction, double kinetic, const Vec3& momentum) {
+    energy.part_kinetic[at(part)] += fraction * kinetic;
+    energy.part_momentum[at(part)] += momentum * fraction;
+  };
   auto shared = shared_.begin();
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const std::size_t i = at(free_[k]);
     const double e = 0.5 * (nodes.mass[i] * dot(nodes.v_now[i], nodes.v_now[i]) +
                             nodes.inertia[i] * dot(nodes.omega_now[i], nodes.omega_now[i]));
+    const Vec3 momentum = nodes.v_now[i] * nodes.mass[i];
     energy.kinetic += e;
-    if (part_[k] != none) energy.part_kinetic[at(part_[k])] += e;
+    if (part_[k] != none) add(part_[k], 1.0, e, momentum);
     if (shared->free != k) continue;
     for (std::size_t s = shared->first_share; s < (shared + 1)->first_share; ++s)
-      energy.part_kinetic[at(shares_[s].part)] += shares_[s].fraction * e;
+      add(shares_[s].part, shares_[s].fraction, e, momentum);
     ++shared;
   }
 }

@@ -31,8 +31,8 @@ class NodeMover {
   void settle_broken(State& state) const;
   /// Positions to t_{n+1}.
   void drift(State& state) const;
-  /// After settle(): adds the kinetic energy of the free nodes at t_n to state.energy, in total and by part. Where parts share a
-  /// node, its energy is divided by the number of elements of each part there. Summed in the order of the nodes.
+  /// After settle(): adds the kinetic energy and the momentum of the free nodes at t_n to state.energy, in total and by part. Where parts
+  /// share a node, its own are divided by the number of elements of each part there. Summed in the order of the nodes.
   void account(State& state) const;
 
  private:
