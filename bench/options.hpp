@@ -1,7 +1,8 @@
-// The options every bench takes: --json (one object a row), --quick (smaller problem, fewer repetitions), --csv FILE (rows as a table
-// for a spreadsheet, where the bench has rows).
+// The options of the benches: --json (one object a row), --quick (smaller problem, fewer repetitions); where the bench has several rows,
+// --csv FILE (all of them for a spreadsheet) and --threads N (at most so many; 2 otherwise).
 #pragma once
 
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <string>
@@ -11,12 +12,14 @@ namespace kardan::bench {
 struct Options {
   bool json = false, quick = false;
   std::string csv;
+  int threads = 2;
 
   Options(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
       json |= std::strcmp(argv[i], "--json") == 0;
       quick |= std::strcmp(argv[i], "--quick") == 0;
       if (std::strcmp(argv[i], "--csv") == 0 && i + 1 < argc) csv = argv[++i];
+      if (std::strcmp(argv[i], "--threads") == 0 && i + 1 < argc) threads = std::atoi(argv[++i]);
     }
   }
 };

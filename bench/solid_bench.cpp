@@ -1,37 +1,50 @@
-// Speed of the solid kernel: nanoseconds per element-cycle of ElementSystem::internal_forces on a wavy block.
-// usage: kardan_bench_solid [--json] [--quick]
-#include <omp.h>
-
+// Speed of one-point hexahedra in the whole step: a slightly wavy block between smooth walls that is stretched along z at a constant
+// rate, so that every element of the yielding one yields in every cycle.
+// usage: kardan_bench_solid [--json] [--quick] [--csv FILE]
 #include <cmath>
-#include <cstdio>
 
-#include "kardan/base/isa.hpp"
-#include "kardan/elements/element_system.hpp"
 #include "kardan/elements/solid/solid_kernel.hpp"
-#include "options.hpp"
+#include "step_bench.hpp"
 
 namespace {
 
-kardan::Model block(int side) {
-  using namespace kardan;
+using namespace kardan;
+
+constexpr double size = 5.0;          ///< mm; units kg, mm, ms, kN
+constexpr double stretching = 0.024;  ///< 1/ms: 2e-5 of strain a cycle
+
+Model block(int side) {
   Model model;
   const int n = side + 1;
+  Curve constant;
+  constant.x = {0, 1};
+  constant.y = {1, 1};
+  model.curves.push_back(constant);
+  PrescribedMotion pull;
+  pull.dof = 3;
+  pull.curve = 0;
+  pull.scale = stretching * size * side;
   for (int k = 0; k < n; ++k) {
+    InitialVelocity initial;
+    initial.velocity = {0, 0, stretching * size * k};
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {
+        initial.nodes.push_back((k * n + j) * n + i);
         model.nodes.id.push_back((k * n + j) * n + i + 1);
-        model.nodes.x.push_back(
-            {5.0 * i + 0.3 * std::sin(0.7 * j), 5.0 * j + 0.2 * std::cos(0.3 * k), 5.0 * k + std::sin(0.1 * i)});
-        model.nodes.constrained.push_back(0);
+        const bool wall_x = i == 0 || i == side, wall_y = j == 0 || j == side, wall_z = k == 0 || k == side;
+        const double wave = wall_x || wall_y || wall_z ? 0.0 : 0.3 * std::sin(0.7 * i + 0.5 * j + 0.3 * k);
+        model.nodes.x.push_back({size * i + wave, size * j - wave, size * k + wave});
+        model.nodes.constrained.push_back(static_cast<std::uint8_t>((wall_x ? dof_x : 0) | (wall_y ? dof_y : 0) | (k == 0 ? dof_z : 0)));
+        if (k == side) pull.nodes.push_back((k * n + j) * n + i);
       }
     }
+    model.initial_velocities.push_back(initial);
   }
+  model.prescribed_motions.push_back(pull);
   Section section;
   section.kind = ElementKind::solid;
   model.sections.push_back(section);
-  Material material;
-  material.law = ElasticMaterial{7.8e-6, 210, 0.3, 0, 0};
-  model.materials.push_back(material);
+  model.materials.emplace_back();
   Part part;
   part.id = 1;
   part.section = part.material = 0;
@@ -46,50 +59,27 @@ kardan::Model block(int side) {
       }
     }
   }
+  model.control.termination.end_time = 1e6;
   return model;
-}
-
-double nanoseconds(const kardan::Model& model, int cycles) {
-  using namespace kardan;
-  State state;
-  state.nodes.resize(model.nodes.size());
-  state.nodes.x = model.nodes.x;
-  Diagnostics diagnostics;
-  ElementSystem elements(model, state, diagnostics);
-  for (std::size_t n = 0; n < state.nodes.v.size(); ++n) {
-    const Vec3& x = state.nodes.x[n];
-    state.nodes.v[n] = Vec3{std::sin(0.03 * x.x), std::sin(0.05 * x.y), std::sin(0.02 * x.x + 0.01 * x.y)} * 1e-3;
-  }
-  elements.internal_forces(model, state);
-  state.clock.dt_previous = 5e-4;
-  const double start = bench::thread_seconds();
-  for (int c = 0; c < cycles; ++c) elements.internal_forces(model, state);
-  return 1e9 * (bench::thread_seconds() - start) / cycles / static_cast<double>(model.solids.size());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace kardan;
   const bench::Options options(argc, argv);
-  const bool json = options.json, quick = options.quick;
-  omp_set_num_threads(1);  // the clock is that of one thread
-  const int side = quick ? 28 : 46, cycles = quick ? 40 : 200;
-  Model model = block(side);
-  for (const int hourglass : {2, 4}) {
-    model.control.hourglass_type = hourglass;
-    const double ns = nanoseconds(model, cycles);
-    const char* name = hourglass == 2 ? "viscous" : "stiffness";
-    const int elements = side * side * side;
-    if (json) {
-      std::printf(
-          "{\"case\":\"solid\",\"hourglass\":\"%s\",\"isa\":\"x86-64-v%d\",\"threads\":1,\"elements\":%d,"
-          "\"ns_per_element_cycle\":%.1f,\"history_bytes_per_element\":%zu}\n",
-          name, kernel_level(), elements, ns, solid_history::law * sizeof(double));
-    } else {
-      std::printf(
-          "%d elastic hexahedra, %s hourglass control, x86-64-v%d, 1 thread, %d cycles: %.1f ns per element-cycle\n",
-          elements, name, kernel_level(), cycles, ns);
+  bench::StepReport report(options);
+  for (const int side : {46, 100}) {
+    if (options.quick && side > 46) break;
+    bench::StepCase c;
+    c.name = "solid";
+    c.elements = static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    c.model = block(side);
+    const double nodes_a_tile = 1.42;  // 9^3 nodes on 8^3 elements
+    for (const auto& [variant, law] : bench::laws()) {
+      c.variant = variant;
+      c.model.materials[0].law = law;
+      c.work.bytes = 2 * 8.0 * static_cast<double>(solid_history::law + bench::law_values(law)) + bench::bytes_of_nodes(8, nodes_a_tile, 3);
+      report.add(c, options.quick ? 1.0 : 4.0);
     }
   }
 }

@@ -20,6 +20,17 @@ constexpr std::size_t parallel_threshold = 8;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+/// v += force factor, unless that is not finite. In a cycle that is looked at `before` gets the velocity of before; else the force is
+/// used up. @return whether it was finite.
+inline bool accelerate(Vec3& v, Vec3& force, double factor, Vec3* before) {
+  const Vec3 after = v + force * factor;
+  if (before) *before = v;
+  if (!std::isfinite(dot(after, after))) return false;
+  v = after;
+  if (!before) force = {};
+  return true;
+}
+
 /// Parts of the elements at each node, one entry an element, in lists by node.
 class PartsOfNodes {
  public:
@@ -124,19 +135,9 @@ bool NodeMover::kick_chunk(const Chunk& chunk, State& state, bool looked_at) con
   bool good = true;
   for (std::size_t k = chunk.first_free; k < chunk.end_free; ++k) {
     const std::size_t i = at(free_[k]);
-    const Vec3 v = nodes.v[i] + nodes.force[i] * (kick * inverse_mass_[k]);
-    const Vec3 omega = nodes.omega[i] + nodes.moment[i] * (kick * inverse_inertia_[k]);
-    if (looked_at) {
-      nodes.v_now[i] = nodes.v[i];
-      nodes.omega_now[i] = nodes.omega[i];
-    }
-    if (!std::isfinite(dot(v, v) + dot(omega, omega))) {
-      good = false;
-      continue;
-    }
-    nodes.v[i] = v;
-    nodes.omega[i] = omega;
-    if (!looked_at) nodes.force[i] = nodes.moment[i] = {};
+    good &= accelerate(nodes.v[i], nodes.force[i], kick * inverse_mass_[k], looked_at ? &nodes.v_now[i] : nullptr);
+    if (inverse_inertia_[k] == 0) continue;
+    good &= accelerate(nodes.omega[i], nodes.moment[i], kick * inverse_inertia_[k], looked_at ? &nodes.omega_now[i] : nullptr);
   }
   return good;
 }
