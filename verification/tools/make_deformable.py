@@ -2,6 +2,7 @@
 import pathlib
 
 import shell_cases
+import solid_cases
 from deck import card
 
 HEAD = """*KEYWORD
@@ -77,6 +78,7 @@ def main():
     bar(root / "bar_wall" / "bar_200.k", "Elastic bar against a wall", "A bar of 200 hexahedra hits a wall at 10 m/s; its nodes at x = 0 stay there.",
         0.0324, 200, 8930.0, 117e9, (1.5, 0.06), 2.6e-5, impact(10.0))
     shell_cases.write_all()
+    solid_cases.write_all()
 
 
 if __name__ == "__main__":

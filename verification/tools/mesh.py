@@ -10,7 +10,7 @@ class Mesh:
 
     def node(self, x, y, z=0.0):
         """Number of the node there; one is made if there is none."""
-        x, y, z = (round(c, 12) + 0.0 for c in (x, y, z))
+        x, y, z = (round(c, 9) + 0.0 for c in (x, y, z))
         key = tuple(round(c, 8) for c in (x, y, z))
         if key not in self._at:
             self.nodes.append((x, y, z))
@@ -52,6 +52,16 @@ class Mesh:
             normal = (d1[1] * d2[2] - d1[2] * d2[1], d1[2] * d2[0] - d1[0] * d2[2], d1[0] * d2[1] - d1[1] * d2[0])
             smallest = min(smallest, math.hypot(*normal) / 2 / max(math.dist(p[i], p[(i + 1) % 4]) for i in range(4)))
         return smallest
+
+
+def extruded(base, layers, height):
+    """Hexahedra of equal height on the quadrilaterals of a mesh in the plane z = 0."""
+    mesh = Mesh()
+    ids = [[mesh.node(x, y, height * k / layers) for x, y, _ in base.nodes] for k in range(layers + 1)]
+    for k in range(layers):
+        for q in base.elements:
+            mesh.elements.append(tuple(ids[k][n - 1] for n in q) + tuple(ids[k + 1][n - 1] for n in q))
+    return mesh
 
 
 def rectangle(nx, ny, a, b, x0=0.0, y0=0.0):

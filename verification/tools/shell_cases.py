@@ -7,7 +7,7 @@ import pathlib
 import mesh
 import shell_oracles
 from deck import card
-from structure import Structure, elastic, shell_section, write_case
+from structure import Structure, elastic, plastic, shell_section, write_case
 
 ROOT = pathlib.Path("verification/deformable")
 SHARED = pathlib.Path("../shared/verification")
@@ -140,10 +140,6 @@ def circular_plate():
         figures += [frequencies(name, f"n{n}", 1, [f1]), peak(name, f"n{n}", 1, oracle, 0.0101), energy(name, f"n{n}")]
     write_case(folder, "Clamped circular plate, linear", "First frequency and step response of a clamped plate of Belytschko-Tsay shells in a mesh "
                "that is not regular; R/h = 100, so that shear does not matter.", "modal sum of Kirchhoff's plate", runs, figures)
-
-
-def plastic(density, modulus, ratio, yield_stress, tangent=0.0):
-    return ["$ SIGY, ETAN", "*MAT_PIECEWISE_LINEAR_PLASTICITY", card(1, density, modulus, ratio, yield_stress, tangent), "0", "0", "0"]
 
 
 def circular_plate_large():

@@ -67,8 +67,20 @@ def shell_section(thickness, points, elform=2):
     return ["$ ELFORM, SHRF, NIP; thickness", "*SECTION_SHELL", card(1, elform, 5 / 6, points), card(*[thickness] * 4)]
 
 
+def solid_section(elform=1):
+    return ["$ ELFORM", "*SECTION_SOLID", card(1, elform)]
+
+
 def elastic(density, modulus, ratio):
     return ["*MAT_ELASTIC", card(1, density, modulus, ratio)]
+
+
+def plastic(density, modulus, ratio, yield_stress, tangent=0.0):
+    return ["$ SIGY, ETAN", "*MAT_PIECEWISE_LINEAR_PLASTICITY", card(1, density, modulus, ratio, yield_stress, tangent), "0", "0", "0"]
+
+
+def kinematic(density, modulus, ratio, yield_stress, tangent=0.0, beta=1.0):
+    return ["$ SIGY, ETAN, BETA", "*MAT_PLASTIC_KINEMATIC", card(1, density, modulus, ratio, yield_stress, tangent, beta), "0"]
 
 
 def write_case(folder, title, proves, source, runs, figures):

@@ -33,6 +33,19 @@ TEST_F(Runner, SamplesStandAtTheirTimes) {
   }
 }
 
+TEST_F(Runner, SamplesOfTheDecksOwnStepAreInterpolated) {
+  run_.deck = std::filesystem::path(KARDAN_SOURCE_DIR) / "verification/deformable/bar_wall/bar_200.k";
+  run_.sample = 1e-7;
+  run_.steps = 0;
+  run_.end = 2e-6;
+  const auto own = record(run_, {nlohmann::json::parse(R"({"node": 801, "quantity": "displacement", "components": [0]})")});
+  ASSERT_EQ(own[0].size(), 21u);
+  for (std::size_t i = 0; i < 21; ++i) {
+    EXPECT_DOUBLE_EQ(own[0].time[i], 1e-7 * static_cast<double>(i));
+    EXPECT_NEAR(own[0].values[i], -10 * own[0].time[i], 1e-15) << "the free end has not heard of the wall";
+  }
+}
+
 TEST_F(Runner, WhatCannotBeRunIsSaid) {
   run_.deck = "/nowhere/deck.k";
   EXPECT_THROW(record(run_, {}), CaseError);

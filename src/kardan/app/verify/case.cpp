@@ -26,11 +26,11 @@ Run read_run(const std::string& name, const json& entry, const std::filesystem::
   if (joints != "exact" && joints != "penalty") throw CaseError("run " + name + ": joints are exact or penalty");
   run.joints = joints == "exact" ? JointHolding::exact : JointHolding::penalty;
   run.sample = entry.at("sample").get<double>();
-  run.steps = entry.at("steps").get<std::int64_t>();
+  run.steps = entry.value("steps", std::int64_t{0});
   run.end = entry.at("end").get<double>();
   run.is_long = entry.value("long", false);
-  if (!(run.sample > 0) || run.steps < 1 || !(run.end >= run.sample))
-    throw CaseError("run " + name + ": sample > 0, steps >= 1 and end >= sample are needed");
+  if (!(run.sample > 0) || run.steps < 0 || (entry.contains("steps") && run.steps == 0) || !(run.end >= run.sample))
+    throw CaseError("run " + name + ": sample > 0, steps >= 1 (or none: the deck's step) and end >= sample are needed");
   return run;
 }
 
@@ -85,6 +85,9 @@ Figure read_figure(const json& entry, const Case& of) {
   if (figure.oracle && !figure.oracle->run.empty()) named.push_back(figure.oracle->run);
   for (const auto& run : named)
     if (!of.runs.contains(run)) throw CaseError("figure \"" + figure.name + "\": no run \"" + run + "\"");
+  for (const auto& run : named)
+    if (c.measure == Measure::order && of.runs.at(run).free_step())
+      throw CaseError("figure \"" + figure.name + "\": an order of convergence needs constant steps");
   if (figure.runs.size() != (c.measure == Measure::order ? 2u : 1u))
     throw CaseError("figure \"" + figure.name + "\": an order takes two runs, everything else one");
   return figure;

@@ -15,16 +15,17 @@
 
 namespace kardan::verify {
 
-/// One run of a deck with a constant step of sample / steps.
+/// One run of a deck with a constant step of sample / steps, or with the deck's own.
 struct Run {
   std::string name;
   std::filesystem::path deck;
   JointHolding joints = JointHolding::exact;
   double sample = 0;       ///< interval at which signals are recorded
-  std::int64_t steps = 1;  ///< cycles in one such interval
+  std::int64_t steps = 0;  ///< cycles in one such interval; 0: the step is the deck's, which deformable parts may shorten
   double end = 0;          ///< time of the last sample
   bool is_long = false;    ///< takes too long for every test run: only with "-long" behind the name
 
+  bool free_step() const { return steps == 0; }
   double dt() const { return sample / static_cast<double>(steps); }
 };
 

@@ -1,0 +1,65 @@
+"""Solids of verification/deformable: decks at several refinements, tables and case.json."""
+import csv
+
+import mesh
+from deck import card
+from shell_cases import ROOT, SHARED, SI, quarter, write_table
+from structure import Structure, kinematic, plastic, solid_section, write_case
+
+
+def resampled(name, step, last):
+    """Rows of a table of the oracles at 0, step, … last, between its rows linearly."""
+    with open(SHARED / name) as f:
+        header, *rows = list(csv.reader(f))
+    rows = [[float(v) for v in row] for row in rows]
+    result, i = [], 0
+    for k in range(round(last / step) + 1):
+        t = min(k * step, rows[-1][0])
+        while rows[i + 1][0] < t:
+            i += 1
+        share = (t - rows[i][0]) / (rows[i + 1][0] - rows[i][0])
+        result.append([k * step] + [a + share * (b - a) for a, b in zip(rows[i][1:], rows[i + 1][1:])])
+    return header, result
+
+
+def taylor_bar():
+    """f9: a copper cylinder of 32.4 mm by 3.2 mm at 227 m/s against a wall without friction: its face is held along the axis."""
+    radius, length, speed, end = 3.2e-3, 32.4e-3, 227.0, 80e-6
+    e, nu, rho, sigy, h = 117e9, 0.35, 8930.0, 400e6, 100e6
+    folder, sample = ROOT / "taylor_bar", 1e-6
+    write_table(folder / "f9_taylor_24x192.csv", *resampled("f9_taylor_24x192.csv", sample, end))
+    runs, figures = {}, []
+    for n, layers, law, slow in ((3, 36, 24, False), (3, 36, 3, False), (6, 48, 24, True), (8, 80, 24, True)):
+        m = mesh.extruded(mesh.quarter_disk(n, radius), layers, length)
+        s = quarter(Structure("Taylor bar", f"A quarter, {3 * n * n} x {layers} hexahedra.", SI, end, m, solid_section(),
+                              {24: plastic, 3: kinematic}[law](rho, e, nu, sigy, e * h / (e + h))))
+        s.hold(lambda x, y, z: z == 0, "z")
+        s.text("$ everything moves towards the wall, z = 0", "*INITIAL_VELOCITY_GENERATION", card(1, 2, 0, 0, 0, -speed), card(0, 0, 0, 0, 0, 0))
+        key = f"mat{law}_{n}"
+        s.write(folder / f"{key}.k")
+        runs[key] = {"deck": f"{key}.k", "sample": sample, "end": end, **({"long": True} if slow else {})}
+        name = f"{2 * n} elements over the radius, {layers} over the length, MAT_{law:0>3}"
+        foot = [m.at(radius, 0, 0), m.at(radius * 0.5 ** 0.5, radius * 0.5 ** 0.5, 0)]
+        radii = {"sum": [{"node": k, "quantity": "position", "components": [0, 1], "norm": True, "factor": 0.5} for k in foot]}
+        height = {"node": m.at(0, 0, length), "quantity": "position", "components": [2]}
+        if law == 3:
+            figures.append({"figure": "MAT_003 with BETA = 1 against MAT_024, length over time, of itself", "run": key, "signal": height,
+                            "oracle": {"run": "mat24_3", "signal": height}, "measure": "max_error", "scale": "peak", "limit": 1e-6})
+            continue
+        history = {"run": key, "measure": "max_error", "limit": {3: 0.03, 6: 0.015, 8: 0.01}[n]}
+        figures += [{"figure": f"final radius of the face, {name}, of 7.24 mm", "run": key, "signal": radii, "oracle": {"value": [7.24e-3]},
+                     "measure": "final_error", "scale": "peak", "limit": {3: 0.05, 6: 0.025, 8: 0.015}[n]},
+                    {"figure": f"final length, {name}, of 21.41 mm", "run": key, "signal": height, "oracle": {"value": [21.41e-3]},
+                     "measure": "final_error", "scale": "peak", "limit": 0.01 if n == 3 else 0.005},
+                    {"figure": f"length over time, {name}, of the first", "signal": height, "scale": length,
+                     "oracle": {"file": "f9_taylor_24x192.csv", "columns": ["length"]}, **history},
+                    {"figure": f"kinetic energy over time, {name}, of the first", "signal": {"energy": "kinetic", "factor": 4}, "scale": 239.2,
+                     "oracle": {"file": "f9_taylor_24x192.csv", "columns": ["kinetic_energy"]}, **history},
+                    {"figure": f"energy: drift of the total, {name}, of the first", "run": key, "signal": {"energy": "total"},
+                     "measure": "drift", "scale": "initial", "limit": 0.03}]
+    write_case(folder, "Taylor bar", "Large plastic strains of one-point hexahedra with viscous hourglass control. The wall is a support along the axis.",
+               "axisymmetric B-bar elements, 3 x 24 to 24 x 192, extrapolated; published: radius 7.22 to 7.24 mm, length 21.43 mm", runs, figures)
+
+
+def write_all():
+    taylor_bar()
