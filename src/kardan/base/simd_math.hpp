@@ -33,4 +33,12 @@ KARDAN_INLINE Pack exp(const Pack& x) {
   return series * power;
 }
 
+/// (1 - exp(-x))/x, the mean of exp(-x s) over 0 <= s <= 1; relative error below 2e-15. x >= 0.
+KARDAN_INLINE Pack decay_mean(const Pack& x) {
+  Pack series(1.0);
+  for (int i = 17; i >= 2; --i) series = Pack(1.0) - series * x * Pack(1.0 / i);  // sum (-x)^k/(k + 1)!
+  const Pack far = (Pack(1.0) - exp(-min(x, Pack(690.0)))) / max(x, Pack(0.5));
+  return select(x < Pack(0.5), series, far);
+}
+
 }  // namespace kardan::KARDAN_ISA_NAMESPACE

@@ -5,6 +5,10 @@
 
 #include "kardan/base/isa.hpp"
 #include "kardan/materials/law.hpp"
+#include "kardan/materials/laws/blatz_ko.hpp"
+#include "kardan/materials/laws/hyperelastic_rubber.hpp"
+#include "kardan/materials/laws/mooney_rivlin.hpp"
+#include "kardan/materials/laws/ogden.hpp"
 #include "kardan/materials/laws/plastic_kinematic.hpp"
 #include "kardan/materials/shell_law.hpp"
 
@@ -13,6 +17,10 @@ namespace kardan {
 KARDAN_ISA_OBJECT(LawKernels, elastic_kernels);
 KARDAN_ISA_OBJECT(LawKernels, piecewise_plastic_kernels);
 KARDAN_ISA_OBJECT(LawKernels, plastic_kinematic_kernels);
+KARDAN_ISA_OBJECT(LawKernels, blatz_ko_kernels);
+KARDAN_ISA_OBJECT(LawKernels, mooney_rivlin_kernels);
+KARDAN_ISA_OBJECT(LawKernels, hyperelastic_rubber_kernels);
+KARDAN_ISA_OBJECT(LawKernels, ogden_kernels);
 
 namespace {
 
@@ -23,6 +31,7 @@ struct Row {
   bool solids, shells;
   Maker make;
   const ForEachIsa<LawKernels>* kernels;
+  char variant = 0;             ///< 'H' of 77_H
 };
 
 template <class Constants>
@@ -36,6 +45,7 @@ void keep_constants(Law& law, const Constants& constants, const LawSource& sourc
   auto kept = std::make_shared<Kept<Constants>>(Kept<Constants>{constants, source.kept});
   law.constants = std::shared_ptr<const void>(kept, &kept->constants);
   law.start.resize(Constants::history);
+  if constexpr (requires { constants.used_history(); }) law.start.resize(constants.used_history());
   constants.start(law.start.data());
 }
 
@@ -50,6 +60,7 @@ std::optional<Law> make(LawSource& source, LawUse use, double shear_factor, cons
   law.youngs_modulus = law.shear * (3 * lambda + 2 * law.shear) / (lambda + law.shear);
   law.poissons_ratio = lambda / (2 * (lambda + law.shear));
   law.tensors = L::tensors;
+  if constexpr (requires { own->used_tensors(); }) law.tensors = own->used_tensors();
   if constexpr (requires { L::plastic_strain; }) law.plastic_strain = L::plastic_strain;
   if constexpr (requires { own->can_fail(); }) law.can_fail = own->can_fail();
   if constexpr (std::is_same_v<L, Elastic>) law.inlined = InlinedLaw::elastic;
@@ -68,7 +79,11 @@ constexpr Row rows[] = {
     //  number, solids, shells
     {1, true, true, &make<Elastic>, &elastic_kernels_of_isa},
     {3, true, true, &make<PlasticKinematic>, &plastic_kinematic_kernels_of_isa},
+    {7, true, true, &make<BlatzKo>, &blatz_ko_kernels_of_isa},
+    {27, true, true, &make<MooneyRivlin>, &mooney_rivlin_kernels_of_isa},
     {24, true, true, &make<PiecewisePlastic>, &piecewise_plastic_kernels_of_isa},
+    {77, true, true, &make<HyperelasticRubber>, &hyperelastic_rubber_kernels_of_isa, 'H'},
+    {77, true, true, &make<Ogden>, &ogden_kernels_of_isa, 'O'},
 };
 
 /// LS-DYNA's number and the density of a material.
@@ -80,6 +95,11 @@ struct Identify {
   std::pair<int, double> operator()(const SpringMaterial&) const { return {0, 0}; }
   std::pair<int, double> operator()(const UnsupportedMaterial& m) const { return {0, m.density}; }
 };
+
+char variant_of(const Material& material) {
+  const auto* m = std::get_if<FieldMaterial>(&material.law);
+  return m ? m->variant : 0;
+}
 
 std::string keyword_of(const Material& material) {
   if (const auto* m = std::get_if<UnsupportedMaterial>(&material.law)) return " (" + m->keyword + ")";
@@ -101,7 +121,7 @@ std::optional<Law> make_law(const Model& model, const Part& part, LawUse use, do
   const Material& material = model.materials[static_cast<std::size_t>(part.material)];
   const auto [number, density] = std::visit(Identify{}, material.law);
   const auto row = std::find_if(std::begin(rows), std::end(rows), [&, n = number](const Row& r) {
-    return r.material == n && (use == LawUse::solid ? r.solids : r.shells);
+    return r.material == n && r.variant == variant_of(material) && (use == LawUse::solid ? r.solids : r.shells);
   });
   LawSource source{model, material, diagnostics, "material " + std::to_string(material.id), {}};
   if (row == std::end(rows)) {

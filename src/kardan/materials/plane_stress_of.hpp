@@ -24,6 +24,10 @@ struct PlaneStressOf {
 
   static PlaneStressOf from(const Law& law, double shear_factor) { return {law, shear_factor}; }
   void start(double* values) const { law.start(values); }
+  std::size_t used_history() const {
+    if constexpr (requires { law.used_history(); }) return law.used_history();
+    return history;
+  }
 
   template <class R>
   [[gnu::always_inline]] void update(ShellPoint<R>& p, const StepTime& t, double* values) const {
@@ -33,13 +37,15 @@ struct PlaneStressOf {
     start.stress = {s.xx, s.yy, zero, s.xy, s.yz, s.zx};
     start.strain = {d.xx, d.yy, zero, R(0.5) * d.xy, half_k * d.yz, half_k * d.zx};
     start.modulus = modulus;
+    start.volume = zero;
     const R sum = d.xx + d.yy;
     const R limit = R(tolerance) * modulus * sqrt(contraction(start.strain, start.strain)) + R(1e-15) * (abs(s.xx) + abs(s.yy));
 
     alignas(64) double trial[(history > 0 ? history : 1) * block_lanes];
     MaterialPoint<R> point;
+    const std::size_t used = used_history();
     const auto evaluate = [&](const R& normal) {
-      for (std::size_t i = 0; i < history; ++i) R::load(values + i * block_lanes).store(trial + i * block_lanes);
+      for (std::size_t i = 0; i < used; ++i) R::load(values + i * block_lanes).store(trial + i * block_lanes);
       point = start;
       point.strain.zz = normal;
       law.update(point, t, trial);
@@ -64,7 +70,7 @@ struct PlaneStressOf {
         now = select(active, now - step, now);
       }
     }
-    for (std::size_t i = 0; i < history; ++i) R::load(trial + i * block_lanes).store(values + i * block_lanes);
+    for (std::size_t i = 0; i < used; ++i) R::load(trial + i * block_lanes).store(values + i * block_lanes);
     p.stress = {point.stress.xx, point.stress.yy, point.stress.xy, point.stress.yz, point.stress.zx};
     p.thickness_strain = now;
     p.failed = point.failed;

@@ -3,7 +3,8 @@
 // A law is a plain struct
 //   static constexpr std::size_t history;       values that a point keeps beside its stress
 //   static constexpr std::size_t tensors;       how many symmetric tensors (xx, yy, zz, xy, yz, zx) these begin with; the elements
-//                                               turn them with the material, as they turn the stress
+//                                               turn them with the material, as they turn the stress. A law of which some materials
+//                                               use fewer gives used_history() and used_tensors(); these are then the most
 //   void start(double* values) const;           values[0] to values[history - 1] at the start
 //   double longitudinal() const, shear() const; lambda + 2 mu and mu of the start: time step, hourglass control, bulk viscosity
 //   template <class R> void update(MaterialPoint<R>&, const StepTime&, double* history) const;
@@ -61,7 +62,7 @@ template <class R>
 struct MaterialPoint {
   SymmetricTensor<R> stress;  ///< in: at t_{n-1}, out: at t_n
   SymmetricTensor<R> strain;  ///< increment over the step
-  R volume{1.0};              ///< V/V0 at t_n
+  R volume{1.0};              ///< V/V0 at t_n; 0 for a point of a shell, where the law finds it itself
   R viscosity{};              ///< pressure of bulk viscosity at t_{n-1}: heats a law with an equation of state
   R modulus{};                ///< in: longitudinal(); out: rho0 c^2 for the time step, larger where the material has stiffened
   R failed{};                 ///< out: 1 where the point has failed and its element is to be deleted

@@ -65,6 +65,7 @@ struct SpringMaterial {
 /// fields, numbers in the main deck's units.
 struct FieldMaterial {
   int number = 0;       ///< LS-DYNA's: 15 for *MAT_JOHNSON_COOK
+  char variant = 0;     ///< 'H' of 77_H
   std::string keyword;  ///< "*MAT_JOHNSON_COOK"
   double density = 0, youngs_modulus = 0, poissons_ratio = 0;  ///< RO, E, PR; 0 where the keyword has no such field
   std::map<std::string, double, std::less<>> values;           ///< every real or integer field, blank ones at their default

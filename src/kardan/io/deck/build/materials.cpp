@@ -214,8 +214,9 @@ SpringMaterial read_spring(Builder& b, const Block& block, const Card& card, con
 FieldMaterial read_fields(Builder& b, Block& block, const Card& first, const MaterialFields& row) {
   FieldMaterial m;
   m.number = row.number;
+  m.variant = row.variant;
   m.keyword = block.as_written();
-  const auto read = [&](const CardLayout& layout, const Card& card) {
+  const auto read = [&](const CardLayout& layout, const Card& card, const std::string& number = {}) {
     for (const FieldLayout& field : layout.fields) {
       if (field.type == 'A' || field.name == "mid") continue;
       if (field.type == 'I' && field.name.starts_with("lc")) {
@@ -231,11 +232,15 @@ FieldMaterial read_fields(Builder& b, Block& block, const Card& first, const Mat
                           : field.name == "e"                  ? dimension::stress
                           : known != row.dimensions.end() ? known->second
                                                               : dimension::none;
-      m.values[field.name] = card.real(field.name, d);
+      m.values[field.name + number] = card.real(field.name, d);
     }
   };
   for (const CardLayout& layout : block.info->cards) {
-    read(layout, layout.name == "card0" ? first : block.next_optional(layout.name));
+    if (layout.name == row.repeated) {
+      for (int i = 1; !block.at_end(); ++i) read(layout, block.next(layout.name), std::to_string(i));
+    } else if (layout.name == "card0" || !row.has_card || row.has_card(m, layout.name)) {
+      read(layout, layout.name == "card0" ? first : block.next_optional(layout.name));
+    }
   }
   m.density = m.value("ro");
   m.youngs_modulus = m.value("e");

@@ -1,0 +1,146 @@
+#include <omp.h>
+
+#include "elements/law_bench.hpp"
+#include "kardan/base/isa.hpp"
+
+namespace kardan {
+namespace {
+
+using test::Bench;
+using test::Cube;
+using test::fields;
+using test::size_of;
+
+constexpr double g = 2.0;
+FieldMaterial blatz_ko() { return fields(7, 0, 1e-3, {{"g", g}}); }
+
+/// b of the cube, read from the stress of Blatz and Ko's law, which is linear in it: b = J sigma/G + J^(-2q) 1.
+Mat3 left_cauchy_green(Cube& cube, const Mat3& f) {
+  const double q = 0.463 / (1 - 2 * 0.463), j = determinant(f);
+  return cube.stress() * (j / g) + Mat3::identity() * std::pow(j, -2 * q);
+}
+
+Mat3 diagonal(double x, double y, double z) { return {{{{x, 0, 0}, {0, y, 0}, {0, 0, z}}}}; }
+
+Mat3 rotation(double angle) {
+  const Mat3 k = skew(normalized(Vec3{2, -3, 1}));
+  return Mat3::identity() + k * std::sin(angle) + k * k * (1 - std::cos(angle));
+}
+
+/// Largest relative error of b over a path F(s), 0 <= s <= 1, in equal steps.
+template <class Path>
+double error_of(Path path, int steps) {
+  Cube cube(blatz_ko());
+  double worst = 0;
+  for (int i = 1; i <= steps; ++i) {
+    const Mat3 f = path(static_cast<double>(i) / steps);
+    cube.move(f, 1e-3);
+    const Mat3 b = f * transpose(f);
+    worst = std::max(worst, size_of(left_cauchy_green(cube, f) - b) / size_of(b));
+  }
+  return worst;
+}
+
+TEST(FiniteStrain, StretchWithoutRotationIsExactInAnyNumberOfSteps) {
+  const auto uniaxial = [](double s) { return diagonal(1 + s, 1 / std::sqrt(1 + s), 1 / std::sqrt(1 + s)); };
+  const auto biaxial = [](double s) { return diagonal(1 + s, 1 + s, 1 / ((1 + s) * (1 + s))); };
+  for (const int steps : {1, 3, 1000}) {
+    EXPECT_LT(error_of(uniaxial, steps), 1e-12) << steps;
+    EXPECT_LT(error_of(biaxial, steps), 1e-12) << steps;
+  }
+}
+
+/// With rotation the step is split into stretch and rotation (Strang 1968): the error of a step is of third order, of the path of second.
+TEST(FiniteStrain, ShearAndStretchWithRotationAreOfSecondOrder) {
+  const auto shear = [](double s) { return Mat3{{{{1, s, 0}, {0, 1, 0}, {0, 0, 1}}}}; };
+  const auto turning = [](double s) { return rotation(1.5 * s) * diagonal(1 + s, 1 / std::sqrt(1 + s), 1 / std::sqrt(1 + s)); };
+  const auto check = [](auto path, double constant) {
+    const double coarse = error_of(path, 50), fine = error_of(path, 100);
+    EXPECT_LT(coarse, constant / (50 * 50));
+    EXPECT_NEAR(coarse / fine, 4.0, 0.1);
+  };
+  check(shear, 0.1);
+  check(turning, 0.3);
+}
+
+/// A stretched cube turned by 360 degrees keeps its stress in turned axes.
+TEST(FiniteStrain, RigidRotationTurnsTheStress) {
+  Cube cube(blatz_ko());
+  const Mat3 u{{{{1.4, 0.2, 0.1}, {0.2, 0.8, -0.1}, {0.1, -0.1, 1.1}}}};
+  cube.move(u, 1e-3);
+  const Mat3 start = cube.stress();
+  for (int i = 1; i <= 360; ++i) {
+    const Mat3 q = rotation(2 * 3.14159265358979323846 * i / 360);
+    cube.move(q * u, 1e-3);
+    ASSERT_LT(size_of(cube.stress() - q * start * transpose(q)), 1e-11 * size_of(start)) << i;
+  }
+}
+
+std::vector<FieldMaterial> rubbers() {
+  return {blatz_ko(), fields(27, 0, 1e-3, {{"a", 0.8}, {"b", 0.2}, {"pr", 0.49}}),
+          fields(77, 'H', 1e-3, {{"c10", 0.8}, {"c01", 0.2}, {"c20", 0.01}, {"pr", 0.49}, {"g1", 0.3}, {"beta1", 20}}),
+          fields(77, 'O', 1e-3, {{"mu1", 0.8}, {"alpha1", 2.5}, {"pr", 0.49}, {"g1", 0.3}, {"beta1", 20}})};
+}
+
+/// A block thrown against itself: energy is kept by the hyperelastic laws and never made by the viscous ones, at 0.9 of the stable step.
+TEST(FiniteStrain, EnergyOfAFreeBlock) {
+  for (const FieldMaterial& law : rubbers()) {
+    Bench b;
+    b.model.control.hourglass_type = 4;
+    b.model.control.bulk_q1 = b.model.control.bulk_q2 = 1e-12;
+    test::block_of_cubes(b, test::solid_part(b, law), 4, 3, 3);
+    b.start();
+    ASSERT_TRUE(b.diagnostics.ok());
+    double initial = 0;
+    for (std::size_t n = 0; n < b.model.nodes.size(); ++n) {
+      const Vec3& x = b.model.nodes.x[n];
+      b.state.nodes.v[n] = Vec3{8 * std::sin(0.8 * (x.x - 2)), -4 * (x.y - 1.5), 3 * (x.x - 2)} * 1.5;
+      initial += 0.5 * b.state.nodes.mass[n] * dot(b.state.nodes.v[n], b.state.nodes.v[n]);
+    }
+    double stored = 0, worst = 0, total = initial;
+    for (int i = 0; i < 3000; ++i) {
+      const std::vector<Vec3> v = b.state.nodes.v;
+      double dt = 0;
+      if (i == 0) b.forces();
+      dt = 0.67 * b.elements->stable_time_step();
+      b.step(dt);
+      double kinetic = 0;
+      for (std::size_t n = 0; n < v.size(); ++n) kinetic += 0.5 * b.state.nodes.mass[n] * dot(v[n], b.state.nodes.v[n]);
+      if (i < 2) continue;
+      total = kinetic + b.state.energy.internal + b.state.energy.hourglass;
+      worst = std::max(worst, std::abs(total - initial));
+      stored = std::max(stored, b.state.energy.internal);
+    }
+    EXPECT_GT(stored, 0.3 * initial) << law.keyword;
+    EXPECT_LT(worst, 1e-2 * initial) << law.keyword;
+  }
+}
+
+std::uint64_t hash_after_cycles(const FieldMaterial& law, int threads, int level) {
+  set_kernel_level(level);
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(threads);
+  Bench b;
+  test::block_of_cubes(b, test::solid_part(b, law), 11, 7, 5);
+  b.start();
+  for (std::size_t n = 0; n < b.model.nodes.size(); ++n) {
+    const Vec3& x = b.model.nodes.x[n];
+    b.state.nodes.v[n] = Vec3{std::sin(3 * x.x), std::cos(5 * x.y), std::sin(4 * x.x + x.z)} * 3.0;
+  }
+  for (int i = 0; i < 20; ++i) b.step(1e-3);
+  omp_set_num_threads(before);
+  set_kernel_level(0);
+  return b.state.registry.hash();
+}
+
+TEST(FiniteStrain, ResultsDoNotDependOnThreadsOrInstructionSet) {
+  for (const FieldMaterial& law : rubbers()) {
+    const std::uint64_t one = hash_after_cycles(law, 1, 0);
+    EXPECT_EQ(one, hash_after_cycles(law, 2, 0)) << law.keyword;
+    EXPECT_EQ(one, hash_after_cycles(law, 2, 2)) << law.keyword;
+    EXPECT_EQ(one, hash_after_cycles(law, 2, 3)) << law.keyword;
+  }
+}
+
+}  // namespace
+}  // namespace kardan
