@@ -4,6 +4,9 @@
 // them and after them the secant method (Hallquist, LS-DYNA Theory Manual 2006, "Structure of shell materials"). The normal stress of a step
 // starts from zero. Every lane stops by itself, so its result does not depend on its neighbours. The transverse shear strains
 // are multiplied by the shear correction factor (SHRF), so that the stresses are those of the resultants.
+//
+// The axes of a shell follow its side 1-2, not the material. A law of the whole deformation (Law::finite_strain) gets its tensors and
+// stress turned by what the material turns beside them; others leave that out, as Belytschko and Tsay's formulation does.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +16,19 @@
 
 namespace kardan {
 
+/// s turned about z by an angle given as tan(angle/2).
+template <class R>
+[[gnu::always_inline]] inline SymmetricTensor<R> turned_in_plane(const SymmetricTensor<R>& s, const R& half_tangent) {
+  const R f = R(1.0) / (R(1.0) + half_tangent * half_tangent);
+  const R c = (R(1.0) - half_tangent * half_tangent) * f, n = (half_tangent + half_tangent) * f;
+  const R xx = c * (c * s.xx - n * s.xy) - n * (c * s.xy - n * s.yy), yy = n * (n * s.xx + c * s.xy) + c * (n * s.xy + c * s.yy);
+  return {xx, yy, s.zz, c * (n * s.xx + c * s.xy) - n * (n * s.xy + c * s.yy), n * s.zx + c * s.yz, c * s.zx - n * s.yz};
+}
+
 template <class Law>
 struct PlaneStressOf {
   static constexpr std::size_t history = Law::history;
+  static constexpr bool finite_strain = requires { Law::finite_strain; };
   static constexpr int iterations = 20;       ///< at most
   static constexpr double tolerance = 1e-11;  ///< of lambda + 2 mu times the size of the strain increment
 
@@ -41,6 +54,8 @@ struct PlaneStressOf {
     const R sum = d.xx + d.yy;
     const R limit = R(tolerance) * modulus * sqrt(contraction(start.strain, start.strain)) + R(1e-15) * (abs(s.xx) + abs(s.yy));
 
+    const R turn = R(0.25) * p.spin;  // half of the spin before the step, half after it: tan(spin/4)
+    if constexpr (finite_strain) turn_tensors(turn, values);
     alignas(64) double trial[(history > 0 ? history : 1) * block_lanes];
     MaterialPoint<R> point;
     const std::size_t used = used_history();
@@ -71,9 +86,26 @@ struct PlaneStressOf {
       }
     }
     for (std::size_t i = 0; i < used; ++i) R::load(trial + i * block_lanes).store(values + i * block_lanes);
+    if constexpr (finite_strain) {
+      turn_tensors(turn, values);
+      point.stress = turned_in_plane(point.stress, turn);
+      // A plate's stiffness 4 mu grows by no more than three times what the principal stiffness gains.
+      p.stiffening = max(R(1.0), R(1.0) + (point.modulus - modulus) * R(0.75 / law.shear()));
+    }
     p.stress = {point.stress.xx, point.stress.yy, point.stress.xy, point.stress.yz, point.stress.zx};
     p.thickness_strain = now;
     p.failed = point.failed;
+  }
+
+ private:
+  template <class R>
+  [[gnu::always_inline]] void turn_tensors(const R& half_tangent, double* values) const {
+    std::size_t count = Law::tensors;
+    if constexpr (requires { law.used_tensors(); }) count = law.used_tensors();
+    for (std::size_t i = 0; i < count; ++i) {
+      double* h = values + 6 * i * block_lanes;
+      store_tensor(turned_in_plane(load_tensor<R>(h), half_tangent), h);
+    }
   }
 };
 

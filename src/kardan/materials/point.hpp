@@ -5,6 +5,7 @@
 //   static constexpr std::size_t tensors;       how many symmetric tensors (xx, yy, zz, xy, yz, zx) these begin with; the elements
 //                                               turn them with the material, as they turn the stress. A law of which some materials
 //                                               use fewer gives used_history() and used_tensors(); these are then the most
+//   static constexpr bool finite_strain;        only in laws whose stress follows from these tensors, not from the stress before
 //   void start(double* values) const;           values[0] to values[history - 1] at the start
 //   double longitudinal() const, shear() const; lambda + 2 mu and mu of the start: time step, hourglass control, bulk viscosity
 //   template <class R> void update(MaterialPoint<R>&, const StepTime&, double* history) const;
@@ -79,7 +80,9 @@ template <class R>
 struct ShellPoint {
   PlaneStress<R> stress;  ///< in: at t_{n-1}, out: at t_n
   PlaneStress<R> strain;  ///< increment over the step
+  R spin{};               ///< angle that the material turns about the normal beside the element's axes in the step
   R thickness_strain{};   ///< out: increment of the normal strain
+  R stiffening{1.0};      ///< out: factor on the square of the wave speed
   R failed{};             ///< out: 1 where the point has failed
 };
 

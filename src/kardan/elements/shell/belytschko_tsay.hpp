@@ -134,6 +134,7 @@ struct ShellResultants {
   R fxx{}, fyy{}, fxy{}, qx{}, qy{}, mxx{}, myy{}, mxy{};
   R work{};    ///< of the stresses over the step, per area
   R intact{};  ///< 0 where every point has failed
+  R stiffening{1.0};
 };
 
 template <class R, class Law>
@@ -142,6 +143,7 @@ KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, con
   const R dt(step.dt);
   ShellResultants<R> t;
   R intact{};
+  const R spin = R(-0.5) * r.xy * dt;  // the axes follow a line of the material along x, which turns by half of the shear more than it
   for (int i = 0; i < p.points; ++i) {
     double* h = history + static_cast<std::size_t>(i) * shell_point_values(law.history()) * block_lanes;
     ShellPoint<R> point;
@@ -151,7 +153,9 @@ KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, con
     const PlaneStress<R> old = s;
     const R z = half * R(p.zeta[i]), w = half * R(p.weight[i]);
     const PlaneStress<R>& d = point.strain = {(r.xx + z * r.kxx) * dt, (r.yy + z * r.kyy) * dt, (r.xy + z * r.kxy) * dt, r.yz * dt, r.zx * dt};
+    point.spin = spin;
     law.update(point, step, h + 5 * block_lanes);
+    t.stiffening = max(t.stiffening, point.stiffening);
     intact = max(intact, R(1.0) - point.failed);
     t.work += R(0.5) * w * ((old.xx + s.xx) * d.xx + (old.yy + s.yy) * d.yy + (old.xy + s.xy) * d.xy + (old.yz + s.yz) * d.yz +
                             (old.zx + s.zx) * d.zx);
@@ -204,7 +208,7 @@ KARDAN_INLINE R hourglass_forces(const ShellProperties& p, const ShellAxes<R>& s
 }
 
 template <class R>
-KARDAN_INLINE R stable_step(const ShellProperties& p, const ShellAxes<R>& s, const Vec3T<R> (&x)[4], R triangle) {
+KARDAN_INLINE R stable_step(const ShellProperties& p, const ShellAxes<R>& s, const Vec3T<R> (&x)[4], R triangle, R stiffening) {
   R longest{};
   if (p.side_lengths) {
     for (int a = 0; a < 4; ++a) {
@@ -215,7 +219,7 @@ KARDAN_INLINE R stable_step(const ShellProperties& p, const ShellAxes<R>& s, con
     const Vec3T<R> d1 = x[2] - x[0], d2 = x[3] - x[1];
     longest = max(dot(d1, d1), dot(d2, d2));
   }
-  return (R(1.0) + triangle) * s.area / (sqrt(longest) * R(p.wave_speed));
+  return (R(1.0) + triangle) * s.area / (sqrt(longest * stiffening) * R(p.wave_speed));
 }
 
 /// Lanes [first, first + R::lanes) of a block.
@@ -256,7 +260,7 @@ KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, const St
   const auto alive = active > zero;
   const ShellAxes<R> s = shell_axes(x);
   hourglass_shape(s, g);
-  stable_step(p, s, x, R::load(block.triangle + first)).store(block.time_step + first);
+  stable_step(p, s, x, R::load(block.triangle + first), t.stiffening).store(block.time_step + first);
   for (int a = 0; a < 4; ++a) {
     const R fx = s.area * (s.b1[a] * t.fxx + s.b2[a] * t.fxy) + g[a] * hg[0];
     const R fy = s.area * (s.b2[a] * t.fyy + s.b1[a] * t.fxy) + g[a] * hg[1];

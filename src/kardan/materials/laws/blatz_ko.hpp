@@ -18,6 +18,7 @@ struct LawSource;
 
 struct BlatzKo {
   static constexpr std::size_t history = 6, tensors = 1;  ///< b
+  static constexpr bool finite_strain = true;
   static constexpr double poissons_ratio = 0.463;
   static constexpr double q = poissons_ratio / (1 - 2 * poissons_ratio);
 

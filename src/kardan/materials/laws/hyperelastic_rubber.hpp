@@ -21,6 +21,7 @@ struct LawSource;
 
 struct HyperelasticRubber {
   static constexpr std::size_t history = 6 * (1 + PronySeries::most), tensors = 1 + PronySeries::most;  ///< at most: b, h_i
+  static constexpr bool finite_strain = true;
 
   double c10 = 0, c01 = 0, c11 = 0, c20 = 0, c02 = 0, c30 = 0, bulk = 0;
   PronySeries prony;

@@ -19,6 +19,7 @@ struct LawSource;
 
 struct MooneyRivlin {
   static constexpr std::size_t history = 6, tensors = 1;  ///< b
+  static constexpr bool finite_strain = true;
 
   double a = 0, b = 0, c = 0, d = 0;
 

@@ -20,6 +20,7 @@ struct LawSource;
 
 struct Ogden {
   static constexpr std::size_t history = 6 * (1 + PronySeries::most), tensors = 1 + PronySeries::most;  ///< at most: b, h_i
+  static constexpr bool finite_strain = true;
   static constexpr std::size_t most = 8;
 
   std::size_t terms = 0;

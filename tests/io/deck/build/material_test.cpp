@@ -57,5 +57,32 @@ TEST(BuildMaterial, PiecewiseLinearPlasticityChecksItsPoints) {
   EXPECT_NE(unknown.error("77"), nullptr) << unknown.messages();
 }
 
+const FieldMaterial& by_fields(const Built& d, std::size_t i = 0) { return std::get<FieldMaterial>(d.model.materials.at(i).law); }
+
+TEST(BuildMaterial, OgdenWithConstantsAndPronySeries) {
+  const Built d("*MAT_OGDEN_RUBBER\n5,1e-6,.499\n.63,.0012,-.01\n1.3,5.,-2.\n.2,30.\n.1,.5\n");
+  ASSERT_EQ(d.diagnostics.error_count(), 0u) << d.messages();
+  const FieldMaterial& m = by_fields(d);
+  EXPECT_EQ(m.number, 77);
+  EXPECT_EQ(m.variant, 'O');
+  EXPECT_EQ(m.density, 1e-6);
+  EXPECT_EQ(m.value("mu3"), -.01);
+  EXPECT_EQ(m.value("alpha2"), 5);
+  EXPECT_EQ(m.value("g1"), .2);
+  EXPECT_EQ(m.value("beta2"), .5);
+  EXPECT_FALSE(m.values.contains("g3"));
+}
+
+TEST(BuildMaterial, HyperelasticRubberReadsTheTestWhereNIsGiven) {
+  const Built d("*DEFINE_CURVE\n9\n0,0\n1,.4\n*MAT_077_H\n5,1e-6,.499,2\n25.,6.,2.,9\n.2,30.\n*MAT_077_H\n6,1e-6,.499\n.5,.1,0,.02\n");
+  ASSERT_EQ(d.diagnostics.error_count(), 0u) << d.messages();
+  EXPECT_EQ(by_fields(d).value("sgl"), 25);
+  EXPECT_EQ(by_fields(d).curve("lcid1"), 0);
+  EXPECT_EQ(by_fields(d).value("g1"), .2);
+  EXPECT_EQ(by_fields(d).value("c10"), 0);
+  EXPECT_EQ(by_fields(d, 1).value("c10"), .5);
+  EXPECT_EQ(by_fields(d, 1).value("c20"), .02);
+}
+
 }  // namespace
 }  // namespace kardan::deck
