@@ -24,6 +24,11 @@ class Mesh:
             for i in range(nx):
                 self.elements.append((ids[j][i], ids[j][i + 1], ids[j + 1][i + 1], ids[j + 1][i]))
 
+    def triangles(self):
+        """Each quadrilateral becomes two triangles, which are quadrilaterals with node 4 = node 3."""
+        self.elements = [t for a, b, c, d in self.elements for t in ((a, b, c, c), (a, c, d, d))]
+        return self
+
     def where(self, test):
         """Numbers of the nodes with test(x, y, z)."""
         return [n + 1 for n, x in enumerate(self.nodes) if test(*x)]
@@ -32,26 +37,27 @@ class Mesh:
         """Number of the node nearest to a point."""
         return 1 + min(range(len(self.nodes)), key=lambda n: math.dist(self.nodes[n], (x, y, z)))
 
+    def area(self, element):
+        p = [self.nodes[n - 1] for n in element]
+        d1, d2 = ([b - a for a, b in zip(p[i], p[i + 2])] for i in (0, 1))
+        normal = (d1[1] * d2[2] - d1[2] * d2[1], d1[2] * d2[0] - d1[0] * d2[2], d1[0] * d2[1] - d1[1] * d2[0])
+        return math.hypot(*normal) / 2
+
     def corner_areas(self):
         """A quarter of the area of each quadrilateral for each of its nodes: {node: area}."""
         share = {}
         for element in self.elements:
-            p = [self.nodes[n - 1] for n in element]
-            d1, d2 = ([b - a for a, b in zip(p[i], p[i + 2])] for i in (0, 1))
-            normal = (d1[1] * d2[2] - d1[2] * d2[1], d1[2] * d2[0] - d1[0] * d2[2], d1[0] * d2[1] - d1[1] * d2[0])
             for n in element:
-                share[n] = share.get(n, 0.0) + math.hypot(*normal) / 8
+                share[n] = share.get(n, 0.0) + self.area(element) / 4
         return share
 
     def characteristic_length(self):
-        """The smallest area over longest side of the quadrilaterals: what the stable step follows."""
-        smallest = math.inf
-        for element in self.elements:
+        """The smallest area over longest side: what the stable step follows (triangles: twice their area, less a fifth)."""
+        def length(element):
             p = [self.nodes[n - 1] for n in element]
-            d1, d2 = ([b - a for a, b in zip(p[i], p[i + 2])] for i in (0, 1))
-            normal = (d1[1] * d2[2] - d1[2] * d2[1], d1[2] * d2[0] - d1[0] * d2[2], d1[0] * d2[1] - d1[1] * d2[0])
-            smallest = min(smallest, math.hypot(*normal) / 2 / max(math.dist(p[i], p[(i + 1) % 4]) for i in range(4)))
-        return smallest
+            factor = 1.6 if element[2] == element[3] else 1.0
+            return factor * self.area(element) / max(math.dist(p[i], p[(i + 1) % 4]) for i in range(4))
+        return min(length(element) for element in self.elements)
 
 
 def extruded(base, layers, height):
