@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "kardan/elements/beam/beam_forces.hpp"
+#include "kardan/elements/beam/discrete_beams.hpp"
 #include "kardan/elements/discrete/discrete_forces.hpp"
 #include "kardan/elements/geometry.hpp"
 #include "kardan/elements/lumped_mass.hpp"
@@ -29,39 +31,28 @@ double solid_speed(const BulkProperties& m) {
 }
 double bar_speed(const BulkProperties& m) { return std::sqrt(m.youngs_modulus / m.density); }
 
-/// Parts with elements of one kind that would have to be computed and cannot be: one error a part.
-template <class Block>
-void refuse_deformable(const Model& model, const Block& block, const char* keyword, const char* what, Diagnostics& diagnostics) {
-  std::vector<bool> seen(model.parts.size(), false);
-  for (const PartIndex p : block.part) {
-    const Part& part = model.parts[static_cast<std::size_t>(p)];
-    if (seen[static_cast<std::size_t>(p)] || part.material == none || model.rigid_part(p)) continue;
-    seen[static_cast<std::size_t>(p)] = true;
-    const Material& material = model.materials[static_cast<std::size_t>(part.material)];
-    const auto* unsupported = std::get_if<UnsupportedMaterial>(&material.law);
-    diagnostics.error("part " + std::to_string(part.id) + " has deformable " + what + " of material " +
-                          std::to_string(material.id) + (unsupported ? " (" + unsupported->keyword + ")" : "") +
-                          ", which this version does not compute",
-                      "make the part rigid (*MAT_RIGID) or leave it out", keyword);
-  }
-}
-
 }  // namespace
 
 struct ElementSystem::Impl {
   Impl(const Model& model, State& state, Diagnostics& diagnostics)
-      : shells(model, state, diagnostics), solids(model, state, diagnostics), discretes(model, state, diagnostics) {}
+      : shells(model, state, diagnostics),
+        solids(model, state, diagnostics),
+        beams(model, state, diagnostics),
+        discrete_beams(model, state, diagnostics),
+        discretes(model, state, diagnostics) {}
 
   ShellForces shells;
   SolidForces solids;
+  BeamForces beams;
+  DiscreteBeams discrete_beams;
   DiscreteForces discretes;
 };
 
 ElementSystem::ElementSystem(const Model& model, State& state, Diagnostics& diagnostics) {
   add_lumped_masses(model, state, diagnostics);
   impl_ = std::make_unique<Impl>(model, state, diagnostics);
-  refuse_deformable(model, model.beams, "*ELEMENT_BEAM", "beams", diagnostics);
   state.discretes.assign(model.discretes.size(), DiscreteReport{});
+  state.results.beam.resize(model.beams.size());
   state.energy.part_internal.assign(model.parts.size(), 0.0);
   state.energy.part_hourglass.assign(model.parts.size(), 0.0);
 }
@@ -73,18 +64,22 @@ ElementSystem& ElementSystem::operator=(ElementSystem&&) noexcept = default;
 void ElementSystem::internal_forces(const Model& model, State& state) {
   impl_->shells.internal_forces(model, state);
   impl_->solids.internal_forces(model, state);
+  impl_->beams.internal_forces(model, state);
+  impl_->discrete_beams.internal_forces(model, state);
   impl_->discretes.internal_forces(model, state);
 }
 
 void ElementSystem::add_forces(State& state, NodeIndex begin, NodeIndex end) const {
   impl_->shells.add_forces(state, begin, end);
   impl_->solids.add_forces(state, begin, end);
+  impl_->beams.add_forces(state, begin, end);
 }
 
 double ElementSystem::stable_time_step() const { return governing().time_step; }
 
 Governing ElementSystem::governing() const {
-  return std::min({impl_->shells.governing(), impl_->solids.governing(), impl_->discretes.governing()},
+  return std::min({impl_->shells.governing(), impl_->solids.governing(), impl_->beams.governing(), impl_->discrete_beams.governing(),
+                   impl_->discretes.governing()},
                   [](const Governing& a, const Governing& b) { return a.time_step < b.time_step; });
 }
 
@@ -115,14 +110,18 @@ double ElementSystem::rigid_courant_time_step(const Model& model, const State& s
   return dt;
 }
 
-void ElementSystem::account(const Model&, State& state) {
+void ElementSystem::account(const Model& model, State& state) {
   EnergyLedger& energy = state.energy;
   energy.spring_damper = impl_->discretes.energy();
   std::fill(energy.part_internal.begin(), energy.part_internal.end(), 0.0);
   std::fill(energy.part_hourglass.begin(), energy.part_hourglass.end(), 0.0);
   impl_->shells.add_energies(energy.part_internal, energy.part_hourglass);
   impl_->solids.add_energies(energy.part_internal, energy.part_hourglass);
+  impl_->beams.add_energies(energy.part_internal, energy.part_hourglass);
+  impl_->discrete_beams.add_energies(model, energy.part_internal);
   impl_->solids.report(state.results.solid);
+  impl_->beams.report(state, state.results.beam);
+  impl_->discrete_beams.report(state.results.beam);
   energy.internal = std::accumulate(energy.part_internal.begin(), energy.part_internal.end(), 0.0);
   energy.hourglass = std::accumulate(energy.part_hourglass.begin(), energy.part_hourglass.end(), 0.0);
 }

@@ -120,25 +120,21 @@ void add_solids(const Model& model, State& state, Diagnostics& diagnostics) {
 void add_beams(const Model& model, State& state, Diagnostics& diagnostics) {
   const BeamElements& beams = model.beams;
   const PartTable parts(model, ElementKind::beam, beams.part, diagnostics);
-  constexpr int discrete_beam = 6;
   for (std::size_t e = 0; e < beams.size(); ++e) {
     const PartProperties& part = parts[beams.part[e]];
     if (part.section == nullptr) continue;
-    const std::array<NodeIndex, 2> ends{beams.nodes[e][0], beams.nodes[e][1]};
-    const auto x = gather_coordinates(model.nodes.x, ends);
-    const BeamSection& section = part.section->beam;
-    const double volume =
-        section.elform == discrete_beam ? section.volume : beam_area(section) * norm(x[1] - x[0]);
-    if (!(volume > 0) && part.bulk.density > 0) {
+    const BeamLump lump = beam_lump(model, static_cast<Index>(e), part.bulk.density);
+    if (!(lump.mass > 0) && part.bulk.density > 0) {
       diagnostics.error("beam " + std::to_string(beams.id[e]) + " of part " +
                             std::to_string(model.parts[static_cast<std::size_t>(beams.part[e])].id) + " has no volume",
                         "give its section an area (TS1/TT1, A, or VOL of ELFORM 6), its nodes a distance", "*SECTION_BEAM");
       continue;
     }
-    share_mass(state.nodes.mass, ends, 2, volume * part.bulk.density);
-    if (!part.rigid) state.energy.part_mass[static_cast<std::size_t>(beams.part[e])] += volume * part.bulk.density;
-    if (section.elform == discrete_beam && !part.rigid) {
-      for (const NodeIndex n : ends) state.nodes.inertia[static_cast<std::size_t>(n)] += 0.5 * section.inertia;
+    if (!part.rigid) state.energy.part_mass[static_cast<std::size_t>(beams.part[e])] += 2 * lump.mass;
+    for (std::size_t a = 0; a < 2; ++a) {
+      const auto n = static_cast<std::size_t>(beams.nodes[e][a]);
+      state.nodes.mass[n] += lump.mass;
+      if (!part.rigid) state.nodes.inertia[n] += lump.inertia;
     }
   }
 }
@@ -171,16 +167,21 @@ double mean_thickness(const Model& model, Index shell) {
   return 0.25 * (t[0] + t[1] + t[2] + t[3]);
 }
 
-double beam_area(const BeamSection& section) {
-  const bool by_sizes = section.elform == 1 || section.elform == 4 || section.elform == 5 || section.elform == 9;
-  if (!by_sizes || section.cst == 2) return section.area;
-  const auto& ts = section.ts;
-  const auto& tt = section.tt;
-  const auto end = [&](std::size_t i) {
-    const double s = i == 1 && ts[1] == 0 ? ts[0] : ts[i], t = i == 1 && tt[1] == 0 ? tt[0] : tt[i];
-    return section.cst == 1 ? 0.25 * std::numbers::pi * (s * s - t * t) : s * t;
-  };
-  return 0.5 * (end(0) + end(1));
+BeamLump beam_lump(const Model& model, Index beam, double density) {
+  const auto& nodes = model.beams.nodes[static_cast<std::size_t>(beam)];
+  const double length =
+      norm(model.nodes.x[static_cast<std::size_t>(nodes[1])] - model.nodes.x[static_cast<std::size_t>(nodes[0])]);
+  const BeamSection section = beam_section(model, beam);
+  const double volume = beam_volume(section, length), mass = 0.5 * density * volume;
+  if (section.elform == beam_elform::discrete) {
+    if (section.inertia >= 0) return {mass, 0.5 * section.inertia};
+    const double radius = std::cbrt(3 * volume / (4 * std::numbers::pi));  // INER = -1: a solid sphere of the volume VOL
+    return {mass, 0.4 * mass * radius * radius};
+  }
+  if (section.elform == beam_elform::truss) return {mass, 0};
+  const BeamMoments moments = beam_moments(section);
+  const double raised = length * length / (section.elform == beam_elform::belytschko_schwer ? 12 : 8);
+  return {mass, mass * (std::max(moments.ss, moments.tt) / beam_area(section) + raised)};
 }
 
 void add_lumped_masses(const Model& model, State& state, Diagnostics& diagnostics) {

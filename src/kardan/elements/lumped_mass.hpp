@@ -4,6 +4,7 @@
 #include <array>
 
 #include "kardan/base/diagnostics.hpp"
+#include "kardan/model/beam_sections.hpp"
 #include "kardan/model/model.hpp"
 #include "kardan/state/state.hpp"
 
@@ -20,12 +21,22 @@ std::array<double, 4> shell_thickness(const Model& model, Index shell);
 /// Mean of the nodes' thicknesses; of the first three for a triangle.
 double mean_thickness(const Model& model, Index shell);
 
-/// Area of a beam's cross section [length^2]: the mean of both ends for the sections given by sizes (ELFORM 1, 4, 5, 9 with
-/// CST 0 rectangular and 1 tubular), else A of the section.
-double beam_area(const BeamSection& section);
+/// What one beam adds to each of its two nodes.
+///
+/// Mass: half of density times volume. Rotary inertia about every axis, m the node's share of the mass, l the length:
+///   Belytschko-Schwer   m (I/A + l^2/12), I the larger second moment of area: the value that LS-DYNA's bound for the step of this
+///                       element implies (beam_formulations.hpp), with which the stretch governs the step of slender elements;
+///   Hughes-Liu          m (I/A + l^2/8), the l^2/8 as the shells' A/8, so that shear does not govern the step;
+///   truss               none: it does not turn its nodes;   discrete   half of INER.
+/// l^2/12 and l^2/8 vanish under refinement with the square of l; about the axis, where a beam has little inertia, they make waves of
+/// torsion too slow in coarse meshes. Beams of rigid parts add none.
+struct BeamLump {
+  double mass = 0, inertia = 0;
+};
+BeamLump beam_lump(const Model& model, Index beam, double density);
 
 /// Adds to state.nodes.mass the lumped mass of every shell, solid, beam, *ELEMENT_MASS and *ELEMENT_INERTIA, rigid or not,
-/// in equal shares to the element's distinct nodes; and to state.nodes.inertia the rotary inertia of deformable shells.
+/// in equal shares to the element's distinct nodes; and to state.nodes.inertia the rotary inertia of deformable shells and beams.
 /// Parts that cannot have a mass (no section, no material, no thickness) become errors.
 ///
 /// The rotary inertia of a shell node is m max(h^2/12, A/8) about every axis, m the node's share of the mass, h the thickness

@@ -14,7 +14,7 @@
 
 namespace kardan {
 
-enum class LawUse { solid, shell };
+enum class LawUse { solid, shell, beam };
 
 /// Laws that element kernels are compiled for; all others are called through Law::update.
 enum class InlinedLaw { no, elastic, piecewise_plastic };
@@ -54,7 +54,7 @@ struct LawSource {
 /// Density and Young's modulus positive, -1 < nu < 0.5; complains otherwise.
 bool check_elastic_constants(LawSource& source, double density, double youngs_modulus, double poissons_ratio);
 
-/// The law of a part's material for solids or shells (`shear_factor`: SHRF of shells). Without a value the diagnostics say why:
+/// The law of a part's material for solids, shells (`shear_factor`: their SHRF) or beams. Without a value the diagnostics say why:
 /// a law that this version does not have for these elements, or parameters it cannot be computed with.
 std::optional<Law> make_law(const Model& model, const Part& part, LawUse use, double shear_factor, Diagnostics& diagnostics);
 

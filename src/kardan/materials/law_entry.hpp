@@ -5,12 +5,13 @@
 
 namespace kardan {
 
-/// Updates the points of a pack: `law` the constants, `point` a MaterialPoint or ShellPoint on the pack of the instruction set.
+/// Updates the points of a pack: `law` the constants, `point` a MaterialPoint, ShellPoint or BeamPoint on the pack of the instruction set.
 using PointUpdate = void (*)(const void* law, void* point, const StepTime&, double* history);
 
 struct LawKernels {
   PointUpdate solid = nullptr;
   PointUpdate shell = nullptr;
+  PointUpdate beam = nullptr;
 };
 
 }  // namespace kardan

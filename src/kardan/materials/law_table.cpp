@@ -4,12 +4,14 @@
 #include <type_traits>
 
 #include "kardan/base/isa.hpp"
+#include "kardan/materials/beam_stress_of.hpp"
 #include "kardan/materials/law.hpp"
 #include "kardan/materials/laws/blatz_ko.hpp"
 #include "kardan/materials/laws/hyperelastic_rubber.hpp"
 #include "kardan/materials/laws/mooney_rivlin.hpp"
 #include "kardan/materials/laws/ogden.hpp"
 #include "kardan/materials/laws/plastic_kinematic.hpp"
+#include "kardan/materials/laws/spotweld.hpp"
 #include "kardan/materials/shell_law.hpp"
 
 namespace kardan {
@@ -21,6 +23,7 @@ KARDAN_ISA_OBJECT(LawKernels, blatz_ko_kernels);
 KARDAN_ISA_OBJECT(LawKernels, mooney_rivlin_kernels);
 KARDAN_ISA_OBJECT(LawKernels, hyperelastic_rubber_kernels);
 KARDAN_ISA_OBJECT(LawKernels, ogden_kernels);
+KARDAN_ISA_OBJECT(LawKernels, spotweld_kernels);
 
 namespace {
 
@@ -68,6 +71,9 @@ std::optional<Law> make(LawSource& source, LawUse use, double shear_factor, cons
   if (use == LawUse::solid) {
     law.update = kernels.solid;
     keep_constants(law, *own, source);
+  } else if (use == LawUse::beam) {
+    law.update = kernels.beam;
+    keep_constants(law, BeamStressOf<L>::from(*own), source);
   } else {
     law.update = kernels.shell;
     keep_constants(law, ShellLawOf<L>::from(*own, shear_factor), source);
@@ -84,7 +90,18 @@ constexpr Row rows[] = {
     {24, true, true, &make<PiecewisePlastic>, &piecewise_plastic_kernels_of_isa},
     {77, true, true, &make<HyperelasticRubber>, &hyperelastic_rubber_kernels_of_isa, 'H'},
     {77, true, true, &make<Ogden>, &ogden_kernels_of_isa, 'O'},
+    {100, false, false, &make<Spotweld>, &spotweld_kernels_of_isa},
 };
+
+/// Laws of beams: those whose two strains across the axis are equal (beam_stress_of.hpp).
+constexpr int laws_of_beams[] = {1, 3, 24, 100};
+
+bool serves(const Row& row, LawUse use) {
+  if (use != LawUse::beam) return use == LawUse::solid ? row.solids : row.shells;
+  return std::find(std::begin(laws_of_beams), std::end(laws_of_beams), row.material) != std::end(laws_of_beams);
+}
+
+constexpr const char* element_names[] = {"solids", "shells", "beams"};  // by LawUse
 
 /// LS-DYNA's number and the density of a material.
 struct Identify {
@@ -121,11 +138,11 @@ std::optional<Law> make_law(const Model& model, const Part& part, LawUse use, do
   const Material& material = model.materials[static_cast<std::size_t>(part.material)];
   const auto [number, density] = std::visit(Identify{}, material.law);
   const auto row = std::find_if(std::begin(rows), std::end(rows), [&, n = number](const Row& r) {
-    return r.material == n && r.variant == variant_of(material) && (use == LawUse::solid ? r.solids : r.shells);
+    return r.material == n && r.variant == variant_of(material) && serves(r, use);
   });
   LawSource source{model, material, diagnostics, "material " + std::to_string(material.id), {}};
   if (row == std::end(rows)) {
-    diagnostics.error("part " + std::to_string(part.id) + " has deformable " + (use == LawUse::solid ? "solids" : "shells") + " of " +
+    diagnostics.error("part " + std::to_string(part.id) + " has deformable " + element_names[static_cast<int>(use)] + " of " +
                           source.name + keyword_of(material) + ", which this version does not compute",
                       "use a material that docs/keywords.md names for them, or make the part rigid (*MAT_RIGID)", "*PART");
     return std::nullopt;

@@ -86,4 +86,18 @@ struct ShellPoint {
   R failed{};             ///< out: 1 where the point has failed
 };
 
+/// Stress or strain increment of a beam at one point of its section: along the axis r, shears; shear strains are engineering strains.
+template <class R>
+struct BeamStress {
+  R rr{}, rs{}, tr{};
+};
+
+/// A point of a beam: the stresses across the axis and the shear in the section vanish.
+template <class R>
+struct BeamPoint {
+  BeamStress<R> stress;  ///< in: at t_{n-1}, out: at t_n
+  BeamStress<R> strain;  ///< increment over the step
+  R failed{};            ///< out: 1 where the point has failed
+};
+
 }  // namespace kardan

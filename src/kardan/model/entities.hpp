@@ -50,7 +50,10 @@ struct ShellElements : ElementBlock<4> {
 
 struct SolidElements : ElementBlock<8> {};
 
-struct BeamElements : ElementBlock<3> {};  ///< third node: orientation, may be `none`
+struct BeamElements : ElementBlock<3> {  ///< third node: orientation, may be `none`
+  std::unordered_map<Index, Vec3> orientation;              ///< *ELEMENT_BEAM_ORIENTATION: vector from node 1 in place of the third node
+  std::unordered_map<Index, std::array<double, 5>> sizes;   ///< *ELEMENT_BEAM_THICKNESS: PARM1 to PARM5; 0 = the section's
+};
 
 /// *ELEMENT_DISCRETE: springs and dampers between two nodes, or one node and ground (second node `none`).
 struct DiscreteElements : ElementBlock<2> {
@@ -89,10 +92,16 @@ struct SolidSection { int elform = 1; };
 struct BeamSection {
   int elform = 1;
   double shrf = 1.0;
+  int rule = 2;                      ///< QR: integration of the section, 1 to 5
   int cst = 0;                       ///< 0 rectangular, 1 tubular, 2 arbitrary
-  std::array<double, 2> ts{}, tt{};  ///< Hughes-Liu: outer / inner sizes at nodes 1, 2
-  double area = 0, iss = 0, itt = 0, j = 0, sa = 0;
+  std::array<double, 2> ts{}, tt{};  ///< sizes in s and t, or outer and inner diameter, at nodes 1, 2 (ELFORM 1, 9)
+  double area = 0, iss = 0, itt = 0, j = 0;
+  double shear_s = 0, shear_t = 0;   ///< shear areas SAS, SAT (perpendicular to s, to t); 0: no shear deformation
+  bool twists_freely = false;        ///< ITOFF = 1 of spot welds
   double volume = 0, inertia = 0;    ///< discrete beam (ELFORM 6)
+  int scoor = 0;                     ///< likewise: location of its axes
+  Index frame = none;                ///< likewise: CID
+  double cable_area = 0, cable_offset = 0;  ///< likewise: CA, OFFSET
 };
 struct DiscreteSection {
   int dro = 0;  ///< 0 translational, 1 torsional

@@ -43,6 +43,14 @@ struct BeamResults {
   std::vector<std::array<double, 2>> bending;  ///< moments s, t
   std::vector<double> torsion;                 ///< moment
   std::vector<std::uint8_t> alive;
+
+  /// Room for the resultants of all beams.
+  void resize(std::size_t beams) {
+    axial.resize(beams);
+    shear.resize(beams);
+    bending.resize(beams);
+    torsion.resize(beams);
+  }
 };
 
 struct ElementResults {

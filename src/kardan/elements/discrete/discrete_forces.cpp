@@ -14,38 +14,10 @@ constexpr int torsional = 1;
 
 const DiscreteSection& section_of(const Model& model, Index section) { return model.sections[section].discrete; }
 
-/// Nodes that need no mass of their own: of rigid bodies, or held in all translations.
-std::vector<std::uint8_t> carried_nodes(const Model& model) {
-  std::vector<std::uint8_t> carried(model.nodes.size(), 0);
-  const auto mark = [&](const auto& nodes) {
-    for (const NodeIndex n : nodes) {
-      if (n != none) carried[n] = 1;
-    }
-  };
-  const auto rigid_elements = [&](const auto& block) {
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      if (model.rigid_part(block.part[e])) mark(block.nodes[e]);
-    }
-  };
-  rigid_elements(model.shells);
-  rigid_elements(model.solids);
-  rigid_elements(model.beams);
-  for (const NodalRigidBody& body : model.nodal_rigid_bodies) mark(body.nodes);
-  for (const ExtraNodes& extra : model.extra_nodes) mark(extra.nodes);
-  for (const SinglePointConstraint& spc : model.constraints) {
-    if ((spc.dofs & dof_translations) == dof_translations) mark(spc.nodes);
-  }
-  for (const PrescribedMotion& motion : model.prescribed_motions) mark(motion.nodes);
-  for (std::size_t n = 0; n < carried.size(); ++n) {
-    if ((model.nodes.constrained[n] & dof_translations) == dof_translations) carried[n] = 1;
-  }
-  return carried;
-}
-
 }  // namespace
 
 DiscreteForces::DiscreteForces(const Model& model, State& state, Diagnostics& diagnostics)
-    : law_of_material_(model.materials.size(), none), load_of_node_(model.nodes.size(), none) {
+    : law_of_material_(model.materials.size(), none), bound_(model.nodes.size()) {
   const std::size_t count = model.discretes.size();
   elements_.resize(count);
   history_.resize(count);
@@ -53,7 +25,6 @@ DiscreteForces::DiscreteForces(const Model& model, State& state, Diagnostics& di
   tangent_.resize(count);
   for (std::size_t e = 0; e < count; ++e) add_element(model, state, e, diagnostics);
   if (count > 0) check_masses(model, state, diagnostics);
-  node_load_.resize(loaded_nodes_.size());
   state.registry.add({"discretes.history", "mixed", "elements.internal_forces"}, history_);
   state.registry.add_value({"discretes.energy", "energy", "elements.internal_forces"}, energy_);
 }
@@ -76,10 +47,7 @@ void DiscreteForces::add_element(const Model& model, State& state, std::size_t e
   for (const NodeIndex n : element.nodes) {
     if (n == none) continue;
     state.nodes.needed[n] = 1;
-    if (load_of_node_[n] == none) {
-      load_of_node_[n] = static_cast<Index>(loaded_nodes_.size());
-      loaded_nodes_.push_back(n);
-    }
+    bound_.use(n);
   }
   if (element.law == none || !set_line(model, state, e, element, diagnostics)) return;
   History& h = history_[e];
@@ -291,43 +259,22 @@ void DiscreteForces::internal_forces(const Model& model, State& state) {
   bound_step(model, state);
 }
 
-/// A bound on the largest eigenvalue of M^-1 K: with k |u2 - u1|^2 <= k (1 + w2/w1) u1^2 + k (1 + w1/w2) u2^2 (w the inverse
-/// masses of the ends) it is at most the largest sum, over the elements that end at one node or body, of k (w1 + w2) - and
-/// exactly that for a single element, where it is the formula 2 sqrt(m1 m2 / (k (m1 + m2))) of LS-DYNA. Likewise for damping.
-/// A step of lagged damping is stable for K dt^2/4 + C dt/2 <= 1.
-/// LS-DYNA does not limit the step by springs between rigid bodies; without a limit a stiff one would blow up.
 void DiscreteForces::bound_step(const Model& model, const State& state) {
-  std::fill(node_load_.begin(), node_load_.end(), Load{});
-  body_load_.assign(state.bodies.info.size(), Load{});
+  bound_.begin(state);
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const double w = inverse_mass_[e][0] + inverse_mass_[e][1];
     for (std::size_t i = 0; i < 2; ++i) {
       const NodeIndex n = elements_[e].nodes[i];
       if (n == none || inverse_mass_[e][i] == 0) continue;
-      const BodyIndex b = state.nodes.body[n];
-      Load& load = b == none ? node_load_[load_of_node_[n]] : body_load_[b];
-      const double share = (tangent_[e][0] + tangent_[e][1]) * w;
-      load.stiffness += tangent_[e][0] * w;
-      load.damping += tangent_[e][1] * w;
-      if (share > load.largest) {
-        load.largest = share;
-        load.element = static_cast<Index>(e);
-      }
+      bound_.add(state, n, tangent_[e][0] * w, tangent_[e][1] * w, static_cast<Index>(e));
     }
   }
   governing_ = {};
   governing_.kind = ElementKind::discrete;
-  const auto consider = [&](const Load& load) {
-    if (load.element == none) return;
-    const double c = load.damping, k = load.stiffness;
-    const double step = 4.0 / (c + std::sqrt(c * c + 4.0 * k));  // root of k dt^2/4 + c dt/2 = 1
-    if (step < governing_.time_step) {
-      governing_.time_step = step;
-      governing_.element = model.discretes.id[load.element];
-    }
-  };
-  for (const Load& load : node_load_) consider(load);
-  for (const Load& load : body_load_) consider(load);
+  if (const StepBound::Smallest s = bound_.smallest(); s.element != none) {
+    governing_.time_step = s.time_step;
+    governing_.element = model.discretes.id[s.element];
+  }
 }
 
 }  // namespace kardan

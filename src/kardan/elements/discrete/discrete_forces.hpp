@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kardan/base/diagnostics.hpp"
-#include "kardan/elements/governing.hpp"
+#include "kardan/elements/node_limits.hpp"
 #include "kardan/materials/spring_law.hpp"
 #include "kardan/model/model.hpp"
 #include "kardan/state/state.hpp"
@@ -66,21 +66,13 @@ class DiscreteForces {
   double inverse_mass(const State& state, NodeIndex node, const Vec3& axis, bool torsional) const;
   void bound_step(const Model& model, const State& state);
 
-  /// Stiffness and damping that act on one node or body, per unit of its mass.
-  struct Load {
-    double stiffness = 0, damping = 0, largest = 0;
-    Index element = none;   ///< with the largest share
-  };
-
   std::vector<Element> elements_;
   std::vector<Law> laws_;
   std::vector<Index> law_of_material_;
   std::vector<History> history_;
   std::vector<std::array<double, 2>> inverse_mass_;  ///< of the two ends at t_n, by element
   std::vector<std::array<double, 2>> tangent_;       ///< bounds of stiffness and damping at t_n, by element
-  std::vector<Load> node_load_, body_load_;
-  std::vector<std::int32_t> load_of_node_;           ///< into node_load_, none where no element ends
-  std::vector<NodeIndex> loaded_nodes_;
+  StepBound bound_;
   Governing governing_;
   double energy_ = 0;
 };

@@ -14,6 +14,7 @@ bool has_rubber_card(const FieldMaterial& m, std::string_view card) {
 }  // namespace
 
 const MaterialFields* material_fields(std::string_view keyword) {
+  constexpr Dimension force{1, 1, -2}, moment{1, 2, -2}, spring{1, 0, -2}, damper{1, 0, -1}, turning_damper{1, 2, -1};
   static const std::map<std::string, MaterialFields, std::less<>> rows{
       {"MAT_PLASTIC_KINEMATIC", {3, {{"sigy", dimension::stress}, {"etan", dimension::stress}, {"src", dimension::rate}}}},
       {"MAT_BLATZ-KO_RUBBER", {7, {{"g", dimension::stress}}}},
@@ -32,6 +33,18 @@ const MaterialFields* material_fields(std::string_view keyword) {
          {"mu4", dimension::stress}, {"mu5", dimension::stress},  {"mu6", dimension::stress}, {"mu7", dimension::stress},
          {"mu8", dimension::stress}, {"beta", dimension::rate}},
         'O', &has_rubber_card, "prony"}},
+      {"MAT_LINEAR_ELASTIC_DISCRETE_BEAM",
+       {66, {{"tkr", spring}, {"tks", spring}, {"tkt", spring}, {"rkr", moment}, {"rks", moment}, {"rkt", moment},
+             {"tdr", damper}, {"tds", damper}, {"tdt", damper}, {"rdr", turning_damper}, {"rds", turning_damper}, {"rdt", turning_damper},
+             {"for_", force}, {"fos", force}, {"fot", force}, {"mor", moment}, {"mos", moment}, {"mot", moment}}}},
+      {"MAT_NONLINEAR_ELASTIC_DISCRETE_BEAM",
+       {67, {{"for_", force}, {"fos", force}, {"fot", force}, {"mor", moment}, {"mos", moment}, {"mot", moment},
+             {"ffailr", force}, {"ffails", force}, {"ffailt", force}, {"mfailr", moment}, {"mfails", moment}, {"mfailt", moment},
+             {"ufailr", dimension::length}, {"ufails", dimension::length}, {"ufailt", dimension::length}}}},
+      {"MAT_CABLE_DISCRETE_BEAM", {71, {{"f0", force}}}},
+      {"MAT_SPOTWELD",
+       {100, {{"sigy", dimension::stress}, {"eh", dimension::stress}, {"dt", dimension::time}, {"tfail", dimension::time},
+              {"nrr", force}, {"nrs", force}, {"nrt", force}, {"mrr", moment}, {"mss", moment}, {"mtt", moment}}}},
   };
   const auto found = rows.find(keyword);
   return found == rows.end() ? nullptr : &found->second;

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numbers>
 #include <set>
 #include <variant>
+
+#include "kardan/model/beam_sections.hpp"
 
 namespace kardan::deck {
 
@@ -29,14 +30,6 @@ double shell_thickness(const Model& model, Index e) {
   if (section == none) return 0;
   const auto& t = model.sections[at(section)].shell.thickness;
   return 0.25 * (t[0] + t[1] + t[2] + t[3]);
-}
-
-double beam_area(const BeamSection& s) {
-  if (s.elform == 1 || s.elform == 4 || s.elform == 5) {
-    const double os = 0.5 * (s.ts[0] + s.ts[1]), ot = 0.5 * (s.tt[0] + s.tt[1]);
-    return s.cst == 1 ? std::numbers::pi / 4 * (os * os - ot * ot) : os * ot;
-  }
-  return s.area;
 }
 
 /// Calls f(part, mass, nodes, count) for each element that has mass.
@@ -64,9 +57,8 @@ void for_each_mass(const Model& model, F&& f) {
     if (p == none || !complete(model.beams.nodes[e], 2)) continue;
     const Index section = model.parts[at(p)].section;
     if (section == none) continue;
-    const BeamSection& s = model.sections[at(section)].beam;
-    const double volume = s.elform == 6 ? s.volume : beam_area(s) * beam_length(model, static_cast<Index>(e));
-    f(p, volume * part_density(p), model.beams.nodes[e].data(), 2);
+    const auto i = static_cast<Index>(e);
+    f(p, beam_volume(beam_section(model, i), beam_length(model, i)) * part_density(p), model.beams.nodes[e].data(), 2);
   }
 }
 

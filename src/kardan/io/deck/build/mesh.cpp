@@ -248,22 +248,56 @@ void build_solids(Builder& b, Block& block) {
   }
 }
 
+namespace {
+
+/// PARM1 to PARM5 of *ELEMENT_BEAM_THICKNESS mean what the section's sizes mean.
+std::array<double, 5> read_beam_sizes(Builder& b, const Card& card, PartIndex part) {
+  const Index section = part == none ? none : b.model.parts[static_cast<std::size_t>(part)].section;
+  const int elform = section == none ? 1 : b.model.sections[static_cast<std::size_t>(section)].beam.elform;
+  const Dimension length = dimension::length, area = dimension::area, moment{0, 4, 0};
+  std::array<Dimension, 5> unit{length, length, length, length, length};
+  if (elform == 2 || elform == 3 || elform == 12 || elform == 13) unit = {area, moment, moment, moment, area};
+  if (elform == 6) {
+    unit = {Dimension{0, 3, 0}, dimension::inertia, dimension::none, area, length};
+    b.refuse_nonzero(card, "parm3", "a coordinate system by element", "give CID of *SECTION_BEAM");
+  }
+  std::array<double, 5> sizes{};
+  for (std::size_t i = 0; i < 5; ++i) sizes[i] = card.real("parm" + std::to_string(i + 1), unit[i]);
+  return sizes;
+}
+
+}  // namespace
+
 void build_beams(Builder& b, Block& block) {
   BeamElements& beams = b.model.beams;
   ElementLine line(b, ElementKind::beam, "beam");
-  block.for_each("card0", [&](const Card& card) {
-    if (!line.head(card, 0, 1, static_cast<Index>(beams.size()))) return;
-    const std::array<NodeIndex, 3> n{line.node(card, 2), line.node(card, 3), line.node(card, 4)};
-    if (card.id(2, IdKind::node) == 0) line.absent(card, "n1");
-    if (card.id(3, IdKind::node) == 0) line.absent(card, "n2");
-    if (n[0] != none && n[0] == n[1]) line.repeated(card, n[0]);
-    for (const char* release : {"rt1", "rr1", "rt2", "rr2"}) {
-      b.refuse_nonzero(card, release, "a release of the beam's end", "model it with a joint, or leave it out");
+  const bool thickness = block.has("THICKNESS"), parts = block.has("PID"), orientation = block.has("ORIENTATION");
+  while (!block.at_end()) {
+    const Card card = block.next("card0");
+    const auto e = static_cast<Index>(beams.size());
+    const bool good = line.head(card, 0, 1, e);
+    if (good) {
+      const std::array<NodeIndex, 3> n{line.node(card, 2), line.node(card, 3), line.node(card, 4)};
+      if (card.id(2, IdKind::node) == 0) line.absent(card, "n1");
+      if (card.id(3, IdKind::node) == 0) line.absent(card, "n2");
+      if (n[0] != none && n[0] == n[1]) line.repeated(card, n[0]);
+      for (const char* release : {"rt1", "rr1", "rt2", "rr2"}) {
+        b.refuse_nonzero(card, release, "a release of the beam's end", "model it with a joint, or leave it out");
+      }
+      beams.id.push_back(line.id());
+      beams.part.push_back(line.part());
+      beams.nodes.push_back(n);
     }
-    beams.id.push_back(line.id());
-    beams.part.push_back(line.part());
-    beams.nodes.push_back(n);
-  });
+    if (thickness) {
+      const Card sizes = block.next("thickness");
+      if (good) beams.sizes[e] = read_beam_sizes(b, sizes, line.part());
+    }
+    if (parts) block.next("parts");  // the parts that a spot weld joins: for output and the search of a weld's partners only
+    if (orientation) {
+      const Vec3 vector = block.next("orientation").direction("vx");
+      if (good && norm(vector) > 0) beams.orientation[e] = vector;
+    }
+  }
 }
 
 void build_discretes(Builder& b, Block& block) {

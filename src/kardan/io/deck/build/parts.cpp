@@ -160,44 +160,82 @@ void build_section_solid(Builder& b, Block& block) {
   }
 }
 
+namespace {
+
+void read_truss(Builder& b, BeamSection& s, const Card& sizes) {
+  s.area = sizes.real("a", dimension::area);
+  b.refuse_nonzero(sizes, "stress", "an initial stress of the truss", "leave it out");
+}
+
+void read_resultant(Builder& b, BeamSection& s, const Card& sizes) {
+  s.area = sizes.real("a", dimension::area);
+  s.iss = sizes.real("iss", {0, 4, 0});
+  s.itt = sizes.real("itt", {0, 4, 0});
+  s.j = sizes.real("j", {0, 4, 0});
+  s.shear_s = sizes.real("sas", dimension::area);
+  s.shear_t = Builder::real_or(sizes, "sat", s.shear_s, dimension::area);
+  b.refuse_nonzero(sizes, "ist", "a product moment of area", "give the moments about the principal axes and orient the beam along them");
+  b.refuse_nonzero(sizes, "itorm", "another inertia of torsion", "leave ITORM at 0");
+}
+
+void read_discrete_beam(Builder& b, BeamSection& s, const Card& head, const Card& sizes) {
+  s.scoor = static_cast<int>(head.real("scoor"));
+  s.volume = sizes.real("vol", {0, 3, 0});
+  const double inertia = sizes.real("iner");
+  s.inertia = inertia < 0 ? inertia : sizes.real("iner", dimension::inertia);
+  if (inertia < 0 && inertia != -1)
+    b.unsupported(sizes, "iner", "an inertia matched to the time step (" + sizes.text("iner") + ") is not available", "give the inertia");
+  s.frame = b.optional_reference(sizes, "cid", b.frames);
+  s.cable_area = sizes.real("ca_dofn1", dimension::area);
+  s.cable_offset = sizes.real("offset_dofn2", dimension::length);
+  for (const char* field : {"rrcon_null", "srcon_null", "trcon_null"}) {
+    b.refuse_nonzero(sizes, field, "a rotation that the local axes do not follow", "leave it at 0");
+  }
+}
+
+void read_integrated(Builder& b, BeamSection& s, const Card& sizes) {
+  s.ts = {sizes.real("ts1", dimension::length), sizes.real("ts2", dimension::length)};
+  s.tt = {sizes.real("tt1", dimension::length), sizes.real("tt2", dimension::length)};
+  if (s.ts[1] == 0) s.ts[1] = s.ts[0];
+  if (s.tt[1] == 0) s.tt[1] = s.tt[0];
+  if (s.cst == 0 && s.tt[0] == 0) s.tt = s.ts;
+  if (s.elform == 9) {
+    s.twists_freely = sizes.real("itoff") == 1;
+    return;
+  }
+  for (const char* field : {"nsloc", "ntloc"}) b.refuse_nonzero(sizes, field, "an offset of the beam's reference axis", "leave it at 0, or move the nodes");
+  b.refuse_nonzero(sizes, "itorm", "another inertia of torsion", "leave ITORM at 0");
+}
+
+}  // namespace
+
 void build_section_beam(Builder& b, Block& block) {
   while (!block.at_end()) {
     const std::string title = title_of(block);
     const Card card = block.next("card0");
     const int elform = integer_or(card, "elform", 1);
-    const bool resultant = elform == 2 || elform == 12 || elform == 13, truss = elform == 3, discrete = elform == 6;
-    const Card sizes = block.next(resultant ? "resultant" : (truss ? "truss" : (discrete ? "discrete" : "integrated")));
+    const bool resultant = elform == 2 || elform == 12 || elform == 13, truss = elform == 3, discrete = elform == 6, weld = elform == 9;
+    const Card sizes =
+        block.next(resultant ? "resultant" : (truss ? "truss" : (discrete ? "discrete" : (weld ? "weld" : "integrated"))));
     Section* section = new_section(b, title, card, ElementKind::beam);
     if (section == nullptr) continue;
     BeamSection& s = section->beam;
     s.elform = elform;
     s.shrf = Builder::real_or(card, "shrf", 1.0);
+    s.rule = static_cast<int>(Builder::real_or(card, "qr_irid", 2));  // often written "2.0"
     s.cst = static_cast<int>(card.real("cst"));
     b.refuse_nonzero(card, "nsm", "non-structural mass of the section", "use *ELEMENT_MASS");
+    b.refuse_nonzero(card, "naupd", "an update of the neutral axis", "leave NAUPD at 0");
     if (card.real("qr_irid") < 0)
       b.unsupported(card, "qr_irid", "an integration rule of *INTEGRATION is not available", "use 1 to 5");
-    if (truss) {
-      s.area = sizes.real("a", dimension::area);
-      b.refuse_nonzero(sizes, "stress", "an initial stress of the truss", "leave it out");
-    } else if (resultant) {
-      s.area = sizes.real("a", dimension::area);
-      s.iss = sizes.real("iss", {0, 4, 0});
-      s.itt = sizes.real("itt", {0, 4, 0});
-      s.j = sizes.real("j", {0, 4, 0});
-      s.sa = sizes.real("sas", dimension::area);
-    } else if (discrete) {
-      s.volume = sizes.real("vol", {0, 3, 0});
-      s.inertia = sizes.real("iner", dimension::inertia);
-    } else {
-      for (const char* field : {"nsloc", "ntloc"}) {
-        b.refuse_nonzero(sizes, field, "an offset of the beam's reference axis", "leave it at 0, or move the nodes");
-      }
-      s.ts = {sizes.real("ts1", dimension::length), sizes.real("ts2", dimension::length)};
-      s.tt = {sizes.real("tt1", dimension::length), sizes.real("tt2", dimension::length)};
-      if (s.ts[1] == 0) s.ts[1] = s.ts[0];
-      if (s.tt[1] == 0) s.tt[1] = s.tt[0];
-      if (s.cst == 0 && s.tt[0] == 0) s.tt = s.ts;
-    }
+    if (truss)
+      read_truss(b, s, sizes);
+    else if (resultant)
+      read_resultant(b, s, sizes);
+    else if (discrete)
+      read_discrete_beam(b, s, card, sizes);
+    else
+      read_integrated(b, s, sizes);
   }
 }
 
