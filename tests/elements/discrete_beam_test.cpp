@@ -293,10 +293,23 @@ TEST(SpotWeld, FailsByPlasticStrainAndTime) {
   EXPECT_FALSE(time.alive());
 }
 
+TEST(SpotWeld, MassScalingRaisesTheStepToDt) {
+  const double own = 0.002 * std::sqrt(1000 / weld_modulus);
+  for (const double dt : {0.5 * own, 4 * own}) {
+    Weld w({{"dt", dt}});
+    ASSERT_TRUE(w.diagnostics.ok());
+    w.move({});
+    EXPECT_NEAR(w.elements->stable_time_step(), std::max(own, dt), 1e-9 * own);
+    const double mass = 1000 * w.area * 0.002;
+    EXPECT_NEAR(w.state.nodes.mass[w.n1] + w.state.nodes.mass[w.n2], mass * (dt > own ? 16 : 1), 1e-9 * mass);
+    EXPECT_EQ(w.diagnostics.all().size(), dt > own ? 1u : 0u);  // the notice of the mass added
+  }
+}
+
 TEST(SpotWeld, BelongsToItsMaterialAndNamesWhatIsNotDone) {
-  Weld scaled({{"dt", 1e-6}});
-  ASSERT_FALSE(scaled.diagnostics.ok());
-  EXPECT_THAT(scaled.diagnostics.all()[0].message, ::testing::HasSubstr("mass scaling of the welds (DT)"));
+  Weld filtered({{"nf", 10.0}});
+  ASSERT_FALSE(filtered.diagnostics.ok());
+  EXPECT_THAT(filtered.diagnostics.all()[0].message, ::testing::HasSubstr("filtered over NF cycles"));
   BeamBench b;
   const PartIndex p = b.beam_part(tube(0.006, 0), fields(100, {{"e", 1e9}, {"sigy", 1e6}}));  // ELFORM 1
   b.beam(p, b.node({0, 0, 0}), b.node({1, 0, 0}));

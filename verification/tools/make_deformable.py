@@ -1,6 +1,7 @@
 """Writes the decks of verification/deformable. Run it from the root of the project; the decks it wrote are committed."""
 import pathlib
 
+import beam_cases
 import shell_cases
 import solid_cases
 from deck import card
@@ -79,6 +80,7 @@ def main():
         0.0324, 200, 8930.0, 117e9, (1.5, 0.06), 2.6e-5, impact(10.0))
     shell_cases.write_all()
     solid_cases.write_all()
+    beam_cases.write_all()
 
 
 if __name__ == "__main__":

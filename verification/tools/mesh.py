@@ -3,7 +3,7 @@ import math
 
 
 class Mesh:
-    """Nodes (x, y, z) and elements (4 or 8 numbers of nodes, from 1)."""
+    """Nodes (x, y, z) and elements (4 or 8 numbers of nodes, from 1; 3 for a beam: its ends and the third node)."""
 
     def __init__(self):
         self.nodes, self.elements, self._at = [], [], {}

@@ -7,7 +7,7 @@ SUPPORT = {"": 0, "x": 1, "y": 2, "z": 3, "xy": 4, "yz": 5, "xz": 6, "xyz": 7}  
 
 
 class Structure:
-    """One part of shells or solids, with supports, nodal forces and the lines that are its own."""
+    """One part of shells, solids or beams, with supports, nodal forces and the lines that are its own."""
 
     def __init__(self, title, about, units, end, mesh, section, material):
         """section: lines behind "*SECTION_…" with their keyword; material likewise. Both have the number 1."""
@@ -57,7 +57,7 @@ class Structure:
         for n, x in enumerate(self.mesh.nodes, 1):
             t, r = self.held.get(n, ("", ""))
             o.append(card(n, *x, SUPPORT[t], SUPPORT[r]) if t or r else card(n, *x))
-        o.append("*ELEMENT_SHELL" if len(self.mesh.elements[0]) == 4 else "*ELEMENT_SOLID")
+        o.append({3: "*ELEMENT_BEAM", 4: "*ELEMENT_SHELL", 8: "*ELEMENT_SOLID"}[len(self.mesh.elements[0])])
         o += [card(e, 1, *nodes) for e, nodes in enumerate(self.mesh.elements, 1)] + ["*END"]
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("\n".join(o) + "\n")

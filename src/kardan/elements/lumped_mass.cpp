@@ -120,6 +120,7 @@ void add_solids(const Model& model, State& state, Diagnostics& diagnostics) {
 void add_beams(const Model& model, State& state, Diagnostics& diagnostics) {
   const BeamElements& beams = model.beams;
   const PartTable parts(model, ElementKind::beam, beams.part, diagnostics);
+  std::vector<double> added(model.parts.size(), 0.0);
   for (std::size_t e = 0; e < beams.size(); ++e) {
     const PartProperties& part = parts[beams.part[e]];
     if (part.section == nullptr) continue;
@@ -136,6 +137,10 @@ void add_beams(const Model& model, State& state, Diagnostics& diagnostics) {
       state.nodes.mass[n] += lump.mass;
       if (!part.rigid) state.nodes.inertia[n] += lump.inertia;
     }
+    added[static_cast<std::size_t>(beams.part[e])] += 2 * lump.added;
+  }
+  for (std::size_t p = 0; p < added.size(); ++p) {
+    if (added[p] > 0) diagnostics.notice(part_name(model.parts[p]) + ": DT of its spot welds adds the mass " + std::to_string(added[p]));
   }
 }
 
@@ -167,6 +172,19 @@ double mean_thickness(const Model& model, Index shell) {
   return 0.25 * (t[0] + t[1] + t[2] + t[3]);
 }
 
+namespace {
+
+/// Factor on the mass of a spot weld with DT of *MAT_SPOTWELD; 1 for all other beams.
+double weld_mass_factor(const Model& model, Index beam, double length) {
+  const Part& part = model.parts[static_cast<std::size_t>(model.beams.part[static_cast<std::size_t>(beam)])];
+  const auto* weld = std::get_if<FieldMaterial>(&model.materials[static_cast<std::size_t>(part.material)].law);
+  if (weld == nullptr || weld->number != spot_weld_material || !(weld->value("dt") > 0)) return 1;
+  const double ratio = weld->value("dt") / length * std::sqrt(weld->youngs_modulus / weld->density);
+  return std::max(1.0, ratio * ratio);
+}
+
+}  // namespace
+
 BeamLump beam_lump(const Model& model, Index beam, double density) {
   const auto& nodes = model.beams.nodes[static_cast<std::size_t>(beam)];
   const double length =
@@ -180,8 +198,10 @@ BeamLump beam_lump(const Model& model, Index beam, double density) {
   }
   if (section.elform == beam_elform::truss) return {mass, 0};
   const BeamMoments moments = beam_moments(section);
-  const double raised = length * length / (section.elform == beam_elform::belytschko_schwer ? 12 : 8);
-  return {mass, mass * (std::max(moments.ss, moments.tt) / beam_area(section) + raised)};
+  const double share = section.elform == beam_elform::belytschko_schwer ? 1.0 / 12 : section.elform == beam_elform::spot_weld ? 0.25 : 0.125;
+  const double radius_square = std::max(moments.ss, moments.tt) / beam_area(section) + share * length * length;
+  const double scaled = mass * weld_mass_factor(model, beam, length);
+  return {scaled, scaled * radius_square, scaled - mass};
 }
 
 void add_lumped_masses(const Model& model, State& state, Diagnostics& diagnostics) {

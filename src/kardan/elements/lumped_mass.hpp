@@ -27,11 +27,14 @@ double mean_thickness(const Model& model, Index shell);
 ///   Belytschko-Schwer   m (I/A + l^2/12), I the larger second moment of area: the value that LS-DYNA's bound for the step of this
 ///                       element implies (beam_formulations.hpp), with which the stretch governs the step of slender elements;
 ///   Hughes-Liu          m (I/A + l^2/8), the l^2/8 as the shells' A/8, so that shear does not govern the step;
+///   spot weld           m (I/A + l^2/4), so that the stretch alone governs the step (the bound of beam_formulations.hpp, E >= 2 k G);
 ///   truss               none: it does not turn its nodes;   discrete   half of INER.
 /// l^2/12 and l^2/8 vanish under refinement with the square of l; about the axis, where a beam has little inertia, they make waves of
 /// torsion too slow in coarse meshes. Beams of rigid parts add none.
+/// DT of *MAT_SPOTWELD raises mass and inertia of welds together, until their stable step l sqrt(rho/E) is DT: `added` of the mass is that.
 struct BeamLump {
   double mass = 0, inertia = 0;
+  double added = 0;
 };
 BeamLump beam_lump(const Model& model, Index beam, double density);
 

@@ -10,6 +10,9 @@ namespace beam_elform {
 inline constexpr int hughes_liu = 1, belytschko_schwer = 2, truss = 3, discrete = 6, spot_weld = 9;
 }
 
+/// LS-DYNA's number of *MAT_SPOTWELD, the material of ELFORM 9.
+inline constexpr int spot_weld_material = 100;
+
 /// Section of a beam with the sizes of *ELEMENT_BEAM_THICKNESS where it has some; the part has a section of beams.
 BeamSection beam_section(const Model& model, Index beam);
 

@@ -144,24 +144,27 @@ class Assembler {
     }
   }
 
-  /// Sum over lumped nodal masses (eqs. 3 and 6). Rotary inertia of the nodes (from shells and beams) is taken only where
-  /// the masses alone have none about some axis, as for a line of nodes.
-  MassProperties lumped(const std::vector<NodeIndex>& nodes, double& rotary) const {
+  /// Sum over lumped nodal masses (eqs. 3 and 6), with the rotary inertia that deformable shells and beams bring to the nodes: the stable
+  /// steps of these elements count on it, and a small body between them (a bolt) has little of its own.
+  MassProperties lumped(const std::vector<NodeIndex>& nodes) const {
     MassProperties sum;
     Vec3 moment;
     for (NodeIndex n : nodes) {
       sum.mass += state_.nodes.mass[n];
       moment += model_.nodes.x[n] * state_.nodes.mass[n];
-      rotary += state_.nodes.inertia[n];
     }
     if (sum.mass <= 0) return sum;
     sum.center = moment * (1.0 / sum.mass);
     for (NodeIndex n : nodes) {
       const Vec3 r = model_.nodes.x[n] - sum.center;
       sum.inertia += (Mat3::identity() * dot(r, r) - outer(r, r)) * state_.nodes.mass[n];
+      double rotary = state_.nodes.inertia[n];
+      if (const auto it = point_inertia_.find(n); it != point_inertia_.end()) {
+        sum.inertia += it->second;
+        rotary -= trace(it->second) / 3.0;  // the node has the mean of the tensor that the body takes whole
+      }
+      sum.inertia += Mat3::identity() * std::max(0.0, rotary);
     }
-    for (NodeIndex n : nodes)
-      if (const auto it = point_inertia_.find(n); it != point_inertia_.end()) sum.inertia += it->second;
     return sum;
   }
 
@@ -215,7 +218,6 @@ class Assembler {
     const auto body = static_cast<BodyIndex>(state_.bodies.info.size());
     result_.nodes.first.push_back(result_.nodes.node.size());
     MassProperties total;
-    double rotary = 0;
     // The lead first: with its own given inertia and IFLAG = 0 the merge does not change it.
     std::vector<int> order{lead};
     for (int m : members)
@@ -226,17 +228,17 @@ class Assembler {
       const std::vector<NodeIndex> own = claim(piece.nodes, body), extra = claim(piece.extra, body),
                                    attached = claim(piece.attached, body);
       if (m == lead || !frozen) {
-        total.add(piece.given ? given(*piece.given) : lumped(own, rotary));
-        total.add(lumped(extra, rotary));
+        total.add(piece.given ? given(*piece.given) : lumped(own));
+        total.add(lumped(extra));
       }
       for (const auto* list : {&own, &extra, &attached})
         result_.nodes.node.insert(result_.nodes.node.end(), list->begin(), list->end());
       if (piece.part != none) state_.bodies.of_part[piece.part] = body;
     }
-    add_body(pieces_[lead], total, rotary);
+    add_body(pieces_[lead], total);
   }
 
-  void add_body(const Piece& lead, MassProperties total, double rotary) {
+  void add_body(const Piece& lead, MassProperties total) {
     if (!(total.mass > 0)) {
       diagnostics_.error(fmt::format("{} has no mass", describe(lead)),
                          lead.nodal ? "attach elements or masses to its nodes, or use the _INERTIA option"
@@ -245,10 +247,6 @@ class Assembler {
       total.mass = 1;
     }
     PrincipalAxes principal = principal_axes(total.inertia);
-    if (!(principal.values.x > 1e-9 * principal.values.z) && rotary > 0) {
-      total.inertia += Mat3::identity() * rotary;
-      principal = principal_axes(total.inertia);
-    }
     if (!(principal.values.x > 1e-12 * principal.values.z) || !(principal.values.x > 0)) {
       diagnostics_.error(fmt::format("{} has no moment of inertia about one axis (principal values {:.4g}, {:.4g}, {:.4g}); "
                                      "its masses lie on a line or in a point", describe(lead), principal.values.x,

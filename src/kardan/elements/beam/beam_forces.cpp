@@ -11,8 +11,6 @@ namespace kardan {
 
 namespace {
 
-constexpr int spot_weld_material = 100;
-
 bool tiled(const Model& model, Index beam) {
   const PartIndex p = model.beams.part[beam];
   const Part& part = model.parts[p];

@@ -14,7 +14,6 @@ std::optional<Spotweld> Spotweld::make(LawSource& source) {
   if (!(m.value("sigy") > 0)) complain("has no yield stress", "give SIGY > 0");
   if (m.value("eh") < 0) complain("has a negative plastic modulus", "give EH >= 0");
   if (m.value("efail") < 0) complain("has EFAIL < 0, which this version does not compute", "give EFAIL >= 0");
-  if (m.value("dt") != 0) complain("asks for mass scaling of the welds (DT), which this version does not do", "set DT = 0");
   if (m.value("nf") != 0) complain("asks for forces filtered over NF cycles, which this version does not do", "set NF = 0");
   for (const char* limit : {"nrr", "nrs", "nrt", "mrr", "mss", "mtt"}) {
     if (m.value(limit) < 0) complain("has a failure force or moment by a curve of the strain rate (negative)", "give a positive number");
