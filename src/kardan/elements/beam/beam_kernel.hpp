@@ -32,7 +32,8 @@ inline constexpr std::size_t inertia = 4;    ///< likewise
 inline constexpr std::size_t constant = 5;   ///< 6 constants of the cross section, see the formulations
 inline constexpr std::size_t constants = 6;
 inline constexpr std::size_t force = 11;     ///< 6 conjugate forces, see BeamForce
-inline constexpr std::size_t count = 17;
+inline constexpr std::size_t tilt = 17;      ///< rotations of nodes 1, 2 about s, then about t, see BeamTilt
+inline constexpr std::size_t count = 21;
 }  // namespace beam_history
 
 /// Values that one point keeps: 3 stresses and the law's own.

@@ -30,7 +30,9 @@ KARDAN_INLINE void beam_pack(const BeamProperties& p, const Formulation& formula
                              load_vector<R>(block.v[1], first) - load_vector<R>(block.v[0], first),
                              {load_vector<R>(block.v[0] + 3, first), load_vector<R>(block.v[1] + 3, first)}};
   Vec3T<R> s{row(axis), row(axis + 1), row(axis + 2)};
-  const BeamIncrement<R> d = beam_increment(motion, R(step.dt), s);
+  BeamTilt<R> tilts = BeamTilt<R>::load(h + tilt * block_lanes);
+  const BeamIncrement<R> d = beam_increment(motion, R(step.dt), s, tilts);
+  tilts.store(h + tilt * block_lanes);
   BeamElement<R> element{p, step, row(mass), row(inertia), {}, h + count * block_lanes};
   for (std::size_t i = 0; i < constants; ++i) element.constant[i] = row(constant + i);
   const BeamForce<R> old = BeamForce<R>::load(h + force * block_lanes);
@@ -46,7 +48,7 @@ KARDAN_INLINE void beam_pack(const BeamProperties& p, const Formulation& formula
   const BeamAxes<R> axes = beam_axes(motion.line, s);
   for (std::size_t c = 0; c < 3; ++c) axes.s[c].store(h + (axis + c) * block_lanes);
   (R(2.0) / sqrt(formulation.frequency_square(element, axes.length))).store(block.time_step + first);
-  const BeamNodal<R> nodal = beam_nodal(q, axes);
+  const BeamNodal<R> nodal = beam_nodal(q, tilts, axes);
   const auto alive = living > zero;
   for (std::size_t c = 0; c < 3; ++c) {
     const R f = select(alive, nodal.force[c], zero);
