@@ -118,6 +118,44 @@ TEST(DeformableSolids, PartsReportTheirMassAndShareTheMomentum) {
   EXPECT_GT(norm(state.energy.part_momentum[0]), 0.0);  // it began at rest
 }
 
+/// What is seen of a section and of the nodes beyond it, in every cycle.
+class SectionWatch : public Observer {
+ public:
+  bool due(const State&, const StepView&) override { return true; }
+  void at(const Model& model, const State& state, const StepView&) override {
+    const SectionReport& section = state.sections.at(0);
+    Vec3 force, moment;
+    for (std::size_t n = 0; n < state.nodes.x.size(); ++n) {
+      if (model.nodes.x[n].z < 0.45) continue;
+      const Vec3 ma = state.nodes.a[n] * state.nodes.mass[n];
+      force += ma;
+      moment += cross(state.nodes.x[n] - section.centroid, ma);
+    }
+    largest = std::max(largest, norm(force));
+    force_error = std::max(force_error, norm(force + section.force));
+    moment_error = std::max(moment_error, norm(moment + section.moment));
+  }
+  double largest = 0, force_error = 0, moment_error = 0;
+};
+
+/// Newton's law for the free end: its nodes lose what the section's nodes exert on the elements that the plane cuts.
+TEST(DeformableSolids, SectionForceMovesTheEndBeyondIt) {
+  Model model = column(8);
+  model.control.termination.end_time = 1e-3;
+  CrossSection section;
+  section.nodes = {20, 21, 22, 23};  // z = 0.5
+  section.elements[static_cast<std::size_t>(ElementKind::solid)] = {4};
+  model.cross_sections.push_back(section);
+  Diagnostics diagnostics;
+  Solver solver(model, {}, diagnostics);
+  SectionWatch watch;
+  solver.attach(watch);
+  EXPECT_EQ(solver.run(), StopReason::end_time);
+  EXPECT_GT(watch.largest, 1e5);
+  EXPECT_LT(watch.force_error, 1e-10 * watch.largest);
+  EXPECT_LT(watch.moment_error, 1e-10 * watch.largest);
+}
+
 TEST(DeformableSolids, VelocitiesAgainstSupportsAreNoEnergyToBeginWith) {
   Model model = column(4);
   for (const NodeIndex n : model.solids.nodes[3]) model.nodes.constrained[static_cast<std::size_t>(n)] = 0b000001;  // x

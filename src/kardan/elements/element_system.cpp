@@ -12,6 +12,7 @@
 #include "kardan/elements/discrete/discrete_forces.hpp"
 #include "kardan/elements/geometry.hpp"
 #include "kardan/elements/lumped_mass.hpp"
+#include "kardan/elements/section_forces.hpp"
 #include "kardan/elements/shell/shell_forces.hpp"
 #include "kardan/elements/solid/solid_forces.hpp"
 
@@ -46,11 +47,16 @@ struct ElementSystem::Impl {
   BeamForces beams;
   DiscreteBeams discrete_beams;
   DiscreteForces discretes;
+  std::unique_ptr<SectionForces> sections;  ///< made once the elements are complete
 };
 
 ElementSystem::ElementSystem(const Model& model, State& state, Diagnostics& diagnostics) {
   add_lumped_masses(model, state, diagnostics);
   impl_ = std::make_unique<Impl>(model, state, diagnostics);
+  if (diagnostics.ok()) {
+    impl_->sections = std::make_unique<SectionForces>(
+        model, std::array<TileElements*, 3>{&impl_->shells.elements(), &impl_->solids.elements(), &impl_->beams.elements()});
+  }
   state.discretes.assign(model.discretes.size(), DiscreteReport{});
   state.results.beam.resize(model.beams.size());
   state.energy.part_internal.assign(model.parts.size(), 0.0);
@@ -122,6 +128,7 @@ void ElementSystem::account(const Model& model, State& state) {
   impl_->solids.report(state.results.solid);
   impl_->beams.report(state, state.results.beam);
   impl_->discrete_beams.report(state.results.beam);
+  impl_->sections->report(model, state);
   energy.internal = std::accumulate(energy.part_internal.begin(), energy.part_internal.end(), 0.0);
   energy.hourglass = std::accumulate(energy.part_hourglass.begin(), energy.part_hourglass.end(), 0.0);
 }

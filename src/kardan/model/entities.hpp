@@ -203,6 +203,15 @@ struct SdOrientation {
   std::array<NodeIndex, 2> nodes{none, none};
 };
 
+/// *DATABASE_CROSS_SECTION_SET, _PLANE: the force that `nodes` exert on `elements` is reported.
+struct CrossSection {
+  UserId id = 0;
+  std::string title;
+  std::vector<NodeIndex> nodes;                 ///< ascending, without repeats
+  std::array<std::vector<Index>, 4> elements;   ///< by ElementKind
+  Index frame = none;                           ///< axes of the report; none = global
+};
+
 struct Box {
   UserId id = 0;
   Vec3 low{}, high{};

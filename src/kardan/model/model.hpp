@@ -40,6 +40,7 @@ struct Model {
   std::vector<PartSet> part_sets;
   std::vector<SegmentSet> segment_sets;
   std::vector<ElementSet> element_sets;
+  std::vector<CrossSection> cross_sections;
 
   std::vector<NodalRigidBody> nodal_rigid_bodies;
   std::vector<RigidBodyMerge> merges;

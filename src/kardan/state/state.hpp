@@ -125,6 +125,12 @@ struct DiscreteReport {
   Vec3 global_force;                 ///< on node 2
 };
 
+/// SECFORC of one cross section at t_n: what its nodes exert on its elements, in the axes of its frame.
+struct SectionReport {
+  Vec3 force, moment;  ///< moment about the centroid
+  Vec3 centroid;       ///< mean of the nodes' positions, global
+};
+
 /// Energies at t_n by the classes GLSTAT prints, per part where a part has it.
 ///
 /// Accounting, every cycle between kick and drift: the solver first calls begin(), which zeroes what is a snapshot at t_n;
@@ -168,6 +174,7 @@ struct State {
   std::vector<JointStiffnessReport> joint_stiffnesses;
   std::vector<DiscreteReport> discretes;     ///< by discrete element
   std::vector<ReactionReport> reactions;
+  std::vector<SectionReport> sections;       ///< by cross section, valid between kick and drift of a cycle that is looked at
   EnergyLedger energy;
   ElementResults results;
   TimeStepOwner step_owner;

@@ -23,6 +23,7 @@ class BeamForces {
   void internal_forces(const Model& model, State& state);
   /// Adds the forces of the cycle to the nodes begin <= n < end.
   void add_forces(State& state, NodeIndex begin, NodeIndex end) const { elements_.add_forces(state, begin, end); }
+  TileElements& elements() { return elements_; }
   const Governing& governing() const { return elements_.governing(); }
   /// Adds the energies at t_n, by part.
   void add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const {

@@ -86,6 +86,41 @@ double TileElements::energy(Index element) const {
   return energy_.empty() || place_[element] == none ? 0.0 : energy_[static_cast<std::size_t>(place_[element])];
 }
 
+std::vector<NodeIndex> TileElements::nodes_of(Index element) const {
+  const Place p = find(element);
+  if (!p.here) return {};
+  const Tile& tile = mesh_.tiles[p.tile];
+  const std::size_t base = (tile.first_block + p.element / block_lanes) * mesh_.nodes_per_element * block_lanes;
+  std::vector<NodeIndex> nodes(mesh_.nodes_per_element);
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    nodes[a] = mesh_.node[tile.first_node + mesh_.connectivity[base + a * block_lanes + p.element % block_lanes]];
+  }
+  return nodes;
+}
+
+void TileElements::watch(const std::vector<Index>& elements) {
+  for (const Index element : elements) {
+    const Place p = find(element);
+    if (!p.here) continue;
+    watched_begin_.resize(mesh_.tiles.size(), npos);
+    if (watched_begin_[p.tile] != npos) continue;
+    watched_begin_[p.tile] = watched_force_.size();
+    const std::size_t size = mesh_.tiles[p.tile].blocks * block_lanes * mesh_.nodes_per_element * input_.components;
+    watched_force_.resize(watched_force_.size() + size, 0.0);
+  }
+}
+
+std::array<Vec3, 2> TileElements::force_on(Index element, std::size_t a) const {
+  const Place p = find(element);
+  const std::size_t c = input_.components, block = p.element / block_lanes;
+  const double* own = watched_force_.data() + watched_begin_[p.tile] +
+                      (block * mesh_.nodes_per_element + a) * c * block_lanes + p.element % block_lanes;
+  const auto vector = [&](std::size_t first) {
+    return Vec3{own[first * block_lanes], own[(first + 1) * block_lanes], own[(first + 2) * block_lanes]};
+  };
+  return {vector(0), c == 6 ? vector(3) : Vec3{}};
+}
+
 void TileElements::run_tile(std::size_t t, const State& state, std::vector<double>& scratch) {
   const Tile& tile = mesh_.tiles[t];
   const bool turns = input_.components == 6;
@@ -117,6 +152,7 @@ void TileElements::run_tile(std::size_t t, const State& state, std::vector<doubl
     work.energy = energy_.data() + first;
   }
   if (!step_factor_.empty() && !step_factor_[t].empty()) work.step_factor = step_factor_[t].data();
+  if (!watched_begin_.empty() && watched_begin_[t] != npos) work.element_force = watched_force_.data() + watched_begin_[t];
   work.force = slots_.slots(tile);
   part.kernel(work);
   internal_[t] += work.internal_increment;
@@ -155,9 +191,7 @@ void TileElements::report_broken(const Model& model, const State& state, Index e
   std::string text = fmt::format("{} {} of part {} {} at t = {:g}; nodes", input_.element_name, input_.ids[element],
                                  model.parts[tile.part].id, fault, state.clock.time);
   std::vector<NodeIndex> nodes;
-  for (std::size_t a = 0; a < mesh_.nodes_per_element; ++a) {
-    const std::size_t base = (tile.first_block + p.element / block_lanes) * mesh_.nodes_per_element * block_lanes;
-    const NodeIndex n = mesh_.node[tile.first_node + mesh_.connectivity[base + a * block_lanes + p.element % block_lanes]];
+  for (const NodeIndex n : nodes_of(element)) {
     if (std::find(nodes.begin(), nodes.end(), n) == nodes.end()) nodes.push_back(n);
   }
   for (const NodeIndex n : nodes) {

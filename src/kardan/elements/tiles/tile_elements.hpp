@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -88,6 +89,13 @@ class TileElements {
   /// Internal energy of an element at t_n; 0 where nothing of its part can be deleted.
   double energy(Index element) const;
 
+  /// Set-up, after start(): keeps the nodal forces of these elements, those that are here, for add_force_on().
+  void watch(const std::vector<Index>& elements);
+  /// Nodes of an element; empty if it is not here.
+  std::vector<NodeIndex> nodes_of(Index element) const;
+  /// Force and moment that node `a` of nodes_of() exerts on a watched element at t_n.
+  std::array<Vec3, 2> force_on(Index element, std::size_t a) const;
+
   /// Stresses to t_n and forces into the slots.
   /// @param fault says what is wrong with an element: "has no area …"
   /// @throws RunError naming the element that the kernel could not compute, with its nodes.
@@ -101,6 +109,8 @@ class TileElements {
   void add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const;
 
  private:
+  static constexpr std::size_t npos = static_cast<std::size_t>(-1);
+
   /// What a tile reports of a cycle.
   struct Outcome {
     double time_step = 0;
@@ -127,6 +137,8 @@ class TileElements {
   std::vector<std::size_t> history_begin_;    ///< by tile
   std::vector<std::vector<double>> step_factor_;  ///< by tile and element; empty: 1
   std::vector<double> alive_, energy_;        ///< [block][lane]; empty where nothing can be deleted
+  std::vector<double> watched_force_;         ///< TileWork::element_force of the watched tiles
+  std::vector<std::size_t> watched_begin_;    ///< by tile, into watched_force_; npos = nobody asks; empty = of no tile
   std::vector<double> internal_, hourglass_;  ///< energies, by tile
   std::vector<Outcome> outcome_;              ///< by tile
   std::vector<std::vector<double>> scratch_;  ///< by thread

@@ -60,6 +60,10 @@ KARDAN_INLINE void for_each_block(TileWork& work, std::size_t components, std::s
       internal[l] += block.internal[l];
       hourglass[l] += block.hourglass[l];
     }
+    if (work.element_force) {
+      static_assert(sizeof(block.force) == NodesPerElement * sizeof(block.force[0]));
+      std::memcpy(work.element_force + b * sizeof(block.force) / sizeof(double), block.force, sizeof(block.force));
+    }
     if (work.energy) {
       for (std::size_t l = 0; l < lanes; ++l) work.energy[b * block_lanes + l] += block.internal[l];
     }

@@ -27,6 +27,8 @@ struct TileWork {
   double* energy = nullptr;                     ///< [block][lane] internal energy of each element, added to; may be null
   const double* step_factor = nullptr;          ///< [element] on the stable step; null: 1
   double* steps = nullptr;                      ///< [block][lane] out: stable step of each element; may be null
+  double* element_force = nullptr;              ///< [block][node of the element][component][lane] out: forces that the nodes exert on each
+                                                ///< element; null where nobody asks
   double* force = nullptr;                      ///< [node][3 or 6] force (and moment) on the nodes; overwritten
   double internal_increment = 0;                ///< out: work of the stresses over the step
   double hourglass_increment = 0;               ///< out

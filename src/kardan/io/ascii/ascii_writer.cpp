@@ -19,6 +19,11 @@ std::string legend_text(const Snapshot& s) {
   return "\n{BEGIN LEGEND}\n Entity #        Title\n" + lines + "{END LEGEND}\n\n";
 }
 
+constexpr const char* secforc_head =
+    " line#1  section#     time        x-force     y-force     z-force    magnitude\n"
+    " line#2  resultant  moments     x-moment    y-moment    z-moment   magnitude\n"
+    " line#3  centroids                     x           y           z\n\n";
+
 bool has_legend(OutputFile file) {
   return file != OutputFile::glstat && file != OutputFile::rbdout && file != OutputFile::spcforc &&
          file != OutputFile::deforc;
@@ -47,6 +52,8 @@ std::string AsciiWriter::text_of(const Snapshot& s) {
       return spcforc_text(s);
     case OutputFile::deforc:
       return deforc_text(s);
+    case OutputFile::secforc:
+      return secforc_text(s);
     default:
       break;
   }
@@ -58,6 +65,7 @@ void AsciiWriter::append(const Snapshot& s, const std::string& text) {
   if (!headed_) {
     file_.write(fmt::format(" {:.72s}\n{:25}{:<30} date {}\n", label_.title, "", label_.version, label_.date));
     if (has_legend(s.file)) file_.write(legend_text(s));
+    if (s.file == OutputFile::secforc) file_.write(secforc_head);
     if (s.file == OutputFile::spcforc) file_.write(" single point constraint forces\n\n");
     headed_ = true;
   }

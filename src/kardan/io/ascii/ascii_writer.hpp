@@ -39,5 +39,6 @@ std::string jntsep_text(const Snapshot& s);
 std::string bndout_text(const Snapshot& s);
 std::string spcforc_text(const Snapshot& s);
 std::string deforc_text(const Snapshot& s);
+std::string secforc_text(const Snapshot& s);
 
 }  // namespace kardan

@@ -181,4 +181,18 @@ std::string deforc_text(const Snapshot& s) {
   return text;
 }
 
+std::string secforc_text(const Snapshot& s) {
+  const Folder& f = s.folders.at(0);
+  const auto& ids = f.meta("ids");
+  std::string text;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    put(text, "{:12d}{:15.5E}{:12.4E}{:12.4E}{:12.4E}{:12.4E}\n", ids[i], s.time, f["x_force"][i], f["y_force"][i], f["z_force"][i],
+        f["total_force"][i]);
+    put(text, "{:27}{:12.4E}{:12.4E}{:12.4E}{:12.4E}\n", "", f["x_moment"][i], f["y_moment"][i], f["z_moment"][i],
+        f["total_moment"][i]);
+    put(text, "{:27}{:12.4E}{:12.4E}{:12.4E}\n\n", "", f["x_centroid"][i], f["y_centroid"][i], f["z_centroid"][i]);
+  }
+  return text;
+}
+
 }  // namespace kardan

@@ -1,4 +1,4 @@
-// JNTFORC, BNDOUT, SPCFORC and DEFORC.
+// JNTFORC, BNDOUT, SPCFORC, DEFORC and SECFORC.
 #include <array>
 #include <numbers>
 
@@ -192,6 +192,28 @@ Folder deforc_folder(const Model& model, const State& state) {
   f.add_vectors("x_force", "y_force", "z_force", n, [&](std::size_t i) { return report(i).global_force; });
   f.add_scalars("resultant_force", n, [&](std::size_t i) { return report(i).force; });
   f.add_scalars("displacement", n, [&](std::size_t i) { return report(i).elongation; });
+  return f;
+}
+
+Folder secforc_folder(const Model& model, const State& state) {
+  const std::vector<SectionReport>& sections = state.sections;
+  const std::size_t n = sections.size();
+  Folder f;
+  f.path = "/secforc";
+  IntegerColumn ids{"ids", {}};
+  for (std::size_t i = 0; i < n; ++i) {
+    const CrossSection& section = model.cross_sections[i];
+    ids.values.push_back(section.id);
+    if (section.title.empty()) continue;
+    f.legend_ids.push_back(section.id);
+    f.legend.push_back(section.title);
+  }
+  f.metadata.push_back(std::move(ids));
+  f.add_vectors("x_force", "y_force", "z_force", n, [&](std::size_t i) { return sections[i].force; });
+  f.add_scalars("total_force", n, [&](std::size_t i) { return norm(sections[i].force); });
+  f.add_vectors("x_moment", "y_moment", "z_moment", n, [&](std::size_t i) { return sections[i].moment; });
+  f.add_scalars("total_moment", n, [&](std::size_t i) { return norm(sections[i].moment); });
+  f.add_vectors("x_centroid", "y_centroid", "z_centroid", n, [&](std::size_t i) { return sections[i].centroid; });
   return f;
 }
 

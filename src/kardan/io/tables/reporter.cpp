@@ -9,7 +9,7 @@ namespace kardan {
 const std::vector<OutputFile>& Reporter::files() {
   static const std::vector<OutputFile> all = {OutputFile::glstat,  OutputFile::matsum,  OutputFile::nodout,
                                               OutputFile::rbdout,  OutputFile::jntforc, OutputFile::bndout,
-                                              OutputFile::spcforc, OutputFile::deforc};
+                                              OutputFile::spcforc, OutputFile::deforc,  OutputFile::secforc};
   return all;
 }
 
@@ -39,6 +39,9 @@ Snapshot Reporter::take(OutputFile file, const Model& model, const State& state)
       break;
     case OutputFile::deforc:
       s.folders.push_back(deforc_folder(model, state));
+      break;
+    case OutputFile::secforc:
+      s.folders.push_back(secforc_folder(model, state));
       break;
     default:
       KARDAN_ASSERT(!"a file of Reporter::files()");

@@ -38,5 +38,6 @@ std::vector<Folder> jntforc_folders(const Model& model, const State& state, cons
 std::vector<Folder> bndout_folders(const Model& model, const State& state);
 Folder spcforc_folder(const Model& model, const State& state);
 Folder deforc_folder(const Model& model, const State& state);
+Folder secforc_folder(const Model& model, const State& state);
 
 }  // namespace kardan

@@ -77,6 +77,8 @@ const std::unordered_map<std::string, Entry>& table() {
       {"LOAD_NODE_POINT", {rest, build_point_load}},
       {"LOAD_NODE_SET", {rest, build_point_load}},
       {"LOAD_SEGMENT", {rest, build_pressure}},
+      {"DATABASE_CROSS_SECTION_PLANE", {rest, build_cross_section}},
+      {"DATABASE_CROSS_SECTION_SET", {rest, build_cross_section}},
       {"LOAD_SEGMENT_SET", {rest, build_pressure}},
       {"LOAD_SHELL_ELEMENT", {rest, build_pressure}},
       {"LOAD_SHELL_SET", {rest, build_pressure}}};

@@ -198,6 +198,7 @@ void build_title(Builder&, Block&);
 void build_control(Builder&, Block&);
 void build_database(Builder&, Block&);
 void build_history(Builder&, Block&);
+void build_cross_section(Builder&, Block&);
 
 void check_model(Builder&);
 
