@@ -97,7 +97,7 @@ std::vector<std::uint8_t> free_faces(const SolidElements& solids) {
 }
 
 double free_shell_factor(const Model& model, Index shell, std::uint8_t edges, const FreeBody& body, double thickness) {
-  if (edges == 0) return 1.0;
+  if (edges == 0 || !(body.longitudinal > 0)) return 1.0;
   const auto& nodes = model.shells.nodes[shell];
   const bool triangle = is_triangle(nodes);
   const ElementCoordinates<4> x = gather_coordinates(model.nodes.x, nodes);

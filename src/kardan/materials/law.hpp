@@ -44,6 +44,16 @@ struct LawSource {
   Diagnostics& diagnostics;
   std::string name;                                      ///< "material 3"
   std::vector<std::shared_ptr<std::vector<double>>> kept; ///< tables that constants point into
+  LawUse use = LawUse::solid;
+  double density = 0;
+  const EquationOfState* eos = nullptr;                  ///< of the part; by equation_of_state()
+  bool eos_taken = false;
+
+  /// What EOSID of *PART names, null where it names nothing.
+  const EquationOfState* equation_of_state() {
+    eos_taken = true;
+    return eos;
+  }
 
   /// Keeps a table as long as the law.
   const std::vector<double>& keep(std::vector<double> table) {

@@ -9,9 +9,11 @@
 #include "kardan/materials/laws/blatz_ko.hpp"
 #include "kardan/materials/laws/hyperelastic_rubber.hpp"
 #include "kardan/materials/laws/mooney_rivlin.hpp"
+#include "kardan/materials/laws/null_material.hpp"
 #include "kardan/materials/laws/ogden.hpp"
 #include "kardan/materials/laws/plastic_kinematic.hpp"
 #include "kardan/materials/laws/spotweld.hpp"
+#include "kardan/materials/laws/viscoelastic.hpp"
 #include "kardan/materials/shell_law.hpp"
 
 namespace kardan {
@@ -24,6 +26,8 @@ KARDAN_ISA_OBJECT(LawKernels, mooney_rivlin_kernels);
 KARDAN_ISA_OBJECT(LawKernels, hyperelastic_rubber_kernels);
 KARDAN_ISA_OBJECT(LawKernels, ogden_kernels);
 KARDAN_ISA_OBJECT(LawKernels, spotweld_kernels);
+KARDAN_ISA_OBJECT(LawKernels, viscoelastic_kernels);
+KARDAN_ISA_OBJECT(LawKernels, null_material_kernels);
 
 namespace {
 
@@ -60,8 +64,10 @@ std::optional<Law> make(LawSource& source, LawUse use, double shear_factor, cons
   law.longitudinal = own->longitudinal();
   law.shear = own->shear();
   const double lambda = law.longitudinal - 2 * law.shear;
-  law.youngs_modulus = law.shear * (3 * lambda + 2 * law.shear) / (lambda + law.shear);
-  law.poissons_ratio = lambda / (2 * (lambda + law.shear));
+  if (lambda + law.shear > 0) {  // else it carries nothing
+    law.youngs_modulus = law.shear * (3 * lambda + 2 * law.shear) / (lambda + law.shear);
+    law.poissons_ratio = lambda / (2 * (lambda + law.shear));
+  }
   law.tensors = L::tensors;
   if constexpr (requires { own->used_tensors(); }) law.tensors = own->used_tensors();
   if constexpr (requires { L::plastic_strain; }) law.plastic_strain = L::plastic_strain;
@@ -85,9 +91,11 @@ constexpr Row rows[] = {
     //  number, solids, shells
     {1, true, true, &make<Elastic>, &elastic_kernels_of_isa},
     {3, true, true, &make<PlasticKinematic>, &plastic_kinematic_kernels_of_isa},
+    {6, true, true, &make<Viscoelastic>, &viscoelastic_kernels_of_isa},
     {7, true, true, &make<BlatzKo>, &blatz_ko_kernels_of_isa},
-    {27, true, true, &make<MooneyRivlin>, &mooney_rivlin_kernels_of_isa},
+    {9, true, true, &make<NullMaterial>, &null_material_kernels_of_isa},
     {24, true, true, &make<PiecewisePlastic>, &piecewise_plastic_kernels_of_isa},
+    {27, true, true, &make<MooneyRivlin>, &mooney_rivlin_kernels_of_isa},
     {77, true, true, &make<HyperelasticRubber>, &hyperelastic_rubber_kernels_of_isa, 'H'},
     {77, true, true, &make<Ogden>, &ogden_kernels_of_isa, 'O'},
     {100, false, false, &make<Spotweld>, &spotweld_kernels_of_isa},
@@ -140,7 +148,8 @@ std::optional<Law> make_law(const Model& model, const Part& part, LawUse use, do
   const auto row = std::find_if(std::begin(rows), std::end(rows), [&, n = number](const Row& r) {
     return r.material == n && r.variant == variant_of(material) && serves(r, use);
   });
-  LawSource source{model, material, diagnostics, "material " + std::to_string(material.id), {}};
+  LawSource source{model, material, diagnostics, "material " + std::to_string(material.id), {}, use, density};
+  if (part.equation_of_state != none) source.eos = &model.equations_of_state[part.equation_of_state];
   if (row == std::end(rows)) {
     diagnostics.error("part " + std::to_string(part.id) + " has deformable " + element_names[static_cast<int>(use)] + " of " +
                           source.name + keyword_of(material) + ", which this version does not compute",
@@ -149,6 +158,10 @@ std::optional<Law> make_law(const Model& model, const Part& part, LawUse use, do
   }
   std::optional<Law> law = row->make(source, use, shear_factor, row->kernels->running());
   if (law) law->density = density;
+  if (source.eos && !source.eos_taken && use == LawUse::solid) {
+    diagnostics.warning("part " + std::to_string(part.id) + " names an equation of state; " + source.name + keyword_of(material) + " has none and takes no notice",
+                        "set EOSID = 0", "*PART");
+  }
   return law;
 }
 

@@ -64,7 +64,7 @@ struct MaterialPoint {
   SymmetricTensor<R> stress;  ///< in: at t_{n-1}, out: at t_n
   SymmetricTensor<R> strain;  ///< increment over the step
   R volume{1.0};              ///< V/V0 at t_n; 0 for a point of a shell, where the law finds it itself
-  R viscosity{};              ///< pressure of bulk viscosity at t_{n-1}: heats a law with an equation of state
+  R viscosity{};              ///< pressure of bulk viscosity, mean of the step: heats a law with an equation of state
   R modulus{};                ///< in: longitudinal(); out: rho0 c^2 for the time step, larger where the material has stiffened
   R failed{};                 ///< out: 1 where the point has failed and its element is to be deleted
 };

@@ -3,6 +3,7 @@
 
 #include "kardan/materials/laws/elastic_plane_stress.hpp"
 #include "kardan/materials/plane_stress_of.hpp"
+#include "kardan/materials/laws/null_material.hpp"
 #include "kardan/materials/laws/plastic_plane_stress.hpp"
 
 namespace kardan {
@@ -18,6 +19,10 @@ struct ShellLawTrait<Elastic> {
 template <>
 struct ShellLawTrait<PiecewisePlastic> {
   using Type = PlasticPlaneStress;
+};
+template <>
+struct ShellLawTrait<NullMaterial> {
+  using Type = NullShell;
 };
 template <class Law>
 using ShellLawOf = typename ShellLawTrait<Law>::Type;

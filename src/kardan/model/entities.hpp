@@ -148,6 +148,7 @@ struct Part {
   Index section = none;
   Index material = none;
   Index hourglass = none;            ///< into Model::hourglasses
+  Index equation_of_state = none;    ///< into Model::equations_of_state
   Index nodal_rigid_body = none;     ///< into Model::nodal_rigid_bodies where the part is one
   std::optional<GivenInertia> inertia;
 };

@@ -91,6 +91,17 @@ struct FieldMaterial {
   }
 };
 
+/// *EOS_…: pressure from compression and internal energy; the formulas stand in materials/equation_of_state.hpp.
+struct EquationOfState {
+  enum class Form : std::uint8_t { linear_polynomial, gruneisen };
+  UserId id = 0;
+  std::string keyword;
+  Form form = Form::linear_polynomial;
+  std::array<double, 7> constants{};  ///< C0 … C6; or C, S1, S2, S3, GAMMA0, A
+  double initial_energy = 0;          ///< E0, per initial volume
+  double initial_volume = 0;          ///< V0, relative; 0 is 1
+};
+
 struct UnsupportedMaterial {
   std::string keyword;
   double density = 0, youngs_modulus = 0, poissons_ratio = 0;

@@ -30,6 +30,7 @@ struct Model {
   std::vector<Section> sections;
   std::vector<Material> materials;
   std::vector<Hourglass> hourglasses;
+  std::vector<EquationOfState> equations_of_state;
 
   std::vector<Curve> curves;
   std::vector<Table> tables;

@@ -29,7 +29,7 @@ ShellProperties properties_of(const Model& model, const Part& part, const Law& l
   p.side_lengths = model.control.time_step.isdo != 1;
   const HourglassChoice h = hourglass_of(model, part);
   p.stiffness_hourglass = h.stiffness();
-  const double shear_ratio = transverse / e;  // k G / E
+  const double shear_ratio = e > 0 ? transverse / e : 0.0;  // k G / E; shells of *MAT_NULL have neither
   if (p.stiffness_hourglass) {
     p.hourglass_membrane = h.membrane * e / 8;
     p.hourglass_bending = h.bending * e / 192;

@@ -236,7 +236,16 @@ KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, const St
     double* viscosity = history + kept::viscosity * block_lanes;
     const R original = R::load(history + kept::volume * block_lanes);
     point.volume = now.volume / original;
-    point.viscosity = R::load(viscosity);
+
+    // Bulk viscosity, on density and length of t_n.
+    double* kept_size = history + kept::size * block_lanes;
+    const R size = cube_root(now.volume, R::load(kept_size)), squeeze = max(-divergence, zero);
+    size.store(kept_size);
+    const R pressure =
+        R(p.density) * original / now.volume * size * squeeze * (R(p.q1) * size * squeeze + R(p.q2) * R(p.wave_speed));
+    const R both = R::load(viscosity) + pressure;
+    pressure.store(viscosity);
+    point.viscosity = half * both;
     point.modulus = R(p.longitudinal);
     stress = turned(q, load_tensor<R>(h));
     R work = contraction(stress, d);
@@ -246,15 +255,7 @@ KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, const St
     work += contraction(stress, d);
     stress = turned(q, stress);
     store_tensor(stress, h);
-
-    // Bulk viscosity, on density and length of t_n.
-    double* kept_size = history + kept::size * block_lanes;
-    const R size = cube_root(now.volume, R::load(kept_size)), squeeze = max(-divergence, zero);
-    size.store(kept_size);
-    const R pressure =
-        R(p.density) * original / now.volume * size * squeeze * (R(p.q1) * size * squeeze + R(p.q2) * R(p.wave_speed));
-    work -= (point.viscosity + pressure) * divergence * dt;
-    pressure.store(viscosity);
+    work -= both * divergence * dt;
     stress.xx -= pressure;
     stress.yy -= pressure;
     stress.zz -= pressure;

@@ -50,6 +50,8 @@ const std::unordered_map<std::string, Entry>& table() {
       {"SECTION_BEAM", {properties, build_section_beam}},
       {"SECTION_DISCRETE", {properties, build_section_discrete}},
       {"HOURGLASS", {properties, build_hourglass}},
+      {"EOS_LINEAR_POLYNOMIAL", {properties, build_equation_of_state}},
+      {"EOS_GRUNEISEN", {properties, build_equation_of_state}},
       {"PART", {parts_phase, build_part}},
       {"ELEMENT_SHELL", {elements_phase, build_shells}},
       {"ELEMENT_SOLID", {elements_phase, build_solids}},

@@ -98,6 +98,7 @@ class Builder {
   IdSpace parts{IdKind::part, "part", "*PART"};
   IdSpace sections{IdKind::other, "section", "*SECTION"};
   IdSpace materials{IdKind::material, "material", "*MAT"};
+  IdSpace equations_of_state{IdKind::other, "equation of state", "*EOS"};
   IdSpace hourglasses{IdKind::other, "hourglass record", "*HOURGLASS"};
   IdSpace curves{IdKind::curve, "curve", "*DEFINE_CURVE"};
   IdSpace tables{IdKind::curve, "table", "*DEFINE_TABLE"};
@@ -159,6 +160,7 @@ void build_section_beam(Builder&, Block&);
 void build_section_discrete(Builder&, Block&);
 void build_hourglass(Builder&, Block&);
 void build_material(Builder&, Block&);
+void build_equation_of_state(Builder&, Block&);
 
 void build_curve(Builder&, Block&);
 void build_curve_function(Builder&, Block&);

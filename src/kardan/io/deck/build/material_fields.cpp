@@ -17,6 +17,8 @@ const MaterialFields* material_fields(std::string_view keyword) {
   constexpr Dimension force{1, 1, -2}, moment{1, 2, -2}, spring{1, 0, -2}, damper{1, 0, -1}, turning_damper{1, 2, -1};
   static const std::map<std::string, MaterialFields, std::less<>> rows{
       {"MAT_PLASTIC_KINEMATIC", {3, {{"sigy", dimension::stress}, {"etan", dimension::stress}, {"src", dimension::rate}}}},
+      {"MAT_VISCOELASTIC", {6, {{"bulk", dimension::stress}, {"g0", dimension::stress}, {"gi", dimension::stress}, {"beta", dimension::rate}}}},
+      {"MAT_NULL", {9, {{"pc", dimension::stress}, {"mu", {1, -1, -1}}, {"ym", dimension::stress}}}},
       {"MAT_BLATZ-KO_RUBBER", {7, {{"g", dimension::stress}}}},
       {"MAT_MOONEY-RIVLIN_RUBBER",
        {27, {{"a", dimension::stress}, {"b", dimension::stress}, {"sgl", dimension::length}, {"sw", dimension::length}, {"st", dimension::length}}}},

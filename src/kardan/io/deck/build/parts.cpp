@@ -83,7 +83,7 @@ void build_part(Builder& b, Block& block) {
     part.section = b.optional_reference(card, "secid", b.sections);
     part.material = b.optional_reference(card, "mid", b.materials);
     part.hourglass = b.optional_reference(card, "hgid", b.hourglasses);
-    b.refuse_nonzero(card, "eosid", "an equation of state", "use a material without one");
+    part.equation_of_state = b.optional_reference(card, "eosid", b.equations_of_state);
     b.ignored(card, "adpopt", "the mesh is not adapted");
     b.ignored(card, "tmid", "there is no thermal solution");
     if (inertia) part.inertia = read_given_inertia(b, block, "cid");
@@ -255,6 +255,32 @@ void build_section_discrete(Builder& b, Block& block) {
     s.fd = card.real("fd", size);
     s.cdl = limits.real("cdl", size);
     s.tdl = limits.real("tdl", size);
+  }
+}
+
+void build_equation_of_state(Builder& b, Block& block) {
+  const bool gruneisen = block.keyword == "EOS_GRUNEISEN";
+  while (!block.at_end()) {
+    title_of(block);
+    const Card card = block.next("card0");
+    const Card state = block.next_optional("card1");
+    EquationOfState e;
+    e.id = card.id("eosid", IdKind::other);
+    e.keyword = block.as_written();
+    if (gruneisen) {
+      e.form = EquationOfState::Form::gruneisen;
+      e.constants = {card.real("c", dimension::velocity), card.real("s1"), card.real("s2"), card.real("s3"), card.real("gamma0"), card.real("a"), 0};
+      b.refuse_nonzero(state, "lcid", "an energy that a curve adds (LCID)", "set LCID = 0");
+    } else {
+      for (std::size_t i = 0; i < 7; ++i) {
+        e.constants[i] = card.real("c" + std::to_string(i), i < 4 ? dimension::stress : dimension::none);
+      }
+    }
+    e.initial_energy = gruneisen ? card.real("e0", dimension::stress) : state.real("e0", dimension::stress);
+    e.initial_volume = state.real("v0");
+    if (b.equations_of_state.enter(card, "eosid", static_cast<Index>(b.model.equations_of_state.size()))) {
+      b.model.equations_of_state.push_back(std::move(e));
+    }
   }
 }
 
