@@ -85,6 +85,36 @@ TEST(PlasticKinematic, BarFollowsTheBilinearLawAndYieldsBackAsBetaSays) {
   }
 }
 
+/// Simple shear at a constant rate, VP = 1: q = f (sigma_y + beta E_p p) + (1 - beta) E_p p with f of the rate of p, which tends to
+/// gamma_rate/sqrt 3. At every step the stress is the one of the step's own plastic increment, in closed form.
+TEST(PlasticKinematic, ViscoplasticShearIsAsFastAsItsOwnPlasticStrain) {
+  for (const double beta : {0.0, 0.4, 1.0}) {
+    PlasticKinematic law = metal(beta);
+    law.rate_law = CowperSymonds::from(40, 5);
+    law.viscoplastic = true;
+    alignas(64) double values[PlasticKinematic::history * block_lanes] = {};
+    const double* const strain = values + PlasticKinematic::plastic_strain * block_lanes;
+    MaterialPoint<Pack> p;
+    const double dt = 1e-3, plastic_modulus = law.isotropic + law.kinematic;
+    for (int i = 0; i < 400; ++i) {
+      const double before = *strain;
+      p.strain = {};
+      p.strain.xy = Pack(0.5 * (i < 200 ? 1e-4 : 5e-3));
+      law.update(p, StepTime{dt, i * dt}, values);
+      const double dp = *strain - before;
+      if (dp == 0) continue;
+      const double factor = 1 + std::pow(dp / dt / 40, 0.2);
+      const double expected = factor * (sigma_y + beta * plastic_modulus * *strain) + (1 - beta) * plastic_modulus * *strain;
+      ASSERT_NEAR(std::sqrt(3.0) * p.stress.xy.v[0], expected, 1e-10 * expected) << i;
+      if (i == 199 || i == 399) {  // steady: dq = 3 mu (dgamma/sqrt 3 - dp) = (f beta + 1 - beta) E_p dp
+        const double stiffness = 3 * law.elastic.shear(), hardening = factor * law.isotropic + law.kinematic;
+        EXPECT_NEAR(dp * (stiffness + hardening) / ((i < 200 ? 1e-4 : 5e-3) / std::sqrt(3.0) * stiffness), 1, 1e-4) << i;
+      }
+    }
+    EXPECT_GT(*strain, 0.5);
+  }
+}
+
 TEST(PlasticKinematic, FailsWhereThePlasticStrainReachesFs) {
   PlasticKinematic law = metal(1);
   law.failure_strain = 0.01;

@@ -41,4 +41,10 @@ KARDAN_INLINE Pack decay_mean(const Pack& x) {
   return select(x < Pack(0.5), series, far);
 }
 
+/// x^exponent for x >= 0 and exponent > 0; relative error below 1e-15 (1 + |exponent log x|). 0 where it is smaller than 1e-299.
+KARDAN_INLINE Pack pow(const Pack& x, double exponent) {
+  const Pack power = log(max(x, Pack(1e-300))) * Pack(exponent);
+  return select((x > Pack(1e-300)) & (power > Pack(-690.0)), exp(max(power, Pack(-690.0))), Pack(0.0));
+}
+
 }  // namespace kardan::KARDAN_ISA_NAMESPACE

@@ -49,8 +49,17 @@ struct CowperSymonds {
   template <class R>
   [[gnu::always_inline]] R factor(const R& square, double dt) const {
     const double scale = dt > 0 ? 1 / (dt * constant) : 0.0;
-    const R relative = max(sqrt(square) * R(scale), R(1e-200));  // the logarithm wants more than 0
-    return R(1.0) + exp(log(relative) * R(power));
+    return factor_of_relative(sqrt(square) * R(scale));
+  }
+  template <class R>
+  [[gnu::always_inline]] R factor_of_rate(const R& rate) const {
+    return factor_of_relative(rate * R(1 / constant));
+  }
+
+ private:
+  template <class R>
+  [[gnu::always_inline]] R factor_of_relative(const R& relative) const {
+    return R(1.0) + exp(log(max(relative, R(1e-200))) * R(power));  // the logarithm wants more than 0
   }
 };
 

@@ -30,6 +30,7 @@ struct Law {
   double longitudinal = 0, shear = 0;     ///< lambda + 2 mu and mu at the start
   double youngs_modulus = 0, poissons_ratio = 0;  ///< of the same two
   bool can_fail = false;
+  ElementDeletion deletion;               ///< where it can
   /// Place of the effective plastic strain in the history, for output; npos if the law has none.
   std::size_t plastic_strain = npos;
   static constexpr std::size_t npos = static_cast<std::size_t>(-1);
@@ -60,6 +61,9 @@ struct LawSource {
     return *kept.emplace_back(std::make_shared<std::vector<double>>(std::move(table)));
   }
 };
+
+/// A law whose points also fail by criteria of stress, strain and time (erosion.hpp).
+Law with_erosion(Law law, const ErosionCriteria& criteria, LawUse use);
 
 /// Density and Young's modulus positive, -1 < nu < 0.5; complains otherwise.
 bool check_elastic_constants(LawSource& source, double density, double youngs_modulus, double poissons_ratio);

@@ -10,11 +10,15 @@ namespace kardan::KARDAN_ISA_NAMESPACE {
 
 template <class Law>
 void update_solid(const void* law, void* point, const StepTime& t, double* history) {
-  static_cast<const Law*>(law)->update(*static_cast<MaterialPoint<Pack>*>(point), t, history);
+  auto& p = *static_cast<MaterialPoint<Pack>*>(point);
+  static_cast<const Law*>(law)->update(p, t, history);
+  unload_failed(p);
 }
 template <class Law>
 void update_shell(const void* law, void* point, const StepTime& t, double* history) {
-  static_cast<const ShellLawOf<Law>*>(law)->update(*static_cast<ShellPoint<Pack>*>(point), t, history);
+  auto& p = *static_cast<ShellPoint<Pack>*>(point);
+  static_cast<const ShellLawOf<Law>*>(law)->update(p, t, history);
+  unload_failed(p);
 }
 template <class Law>
 void update_beam(const void* law, void* point, const StepTime& t, double* history) {

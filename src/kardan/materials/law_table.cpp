@@ -11,7 +11,10 @@
 #include "kardan/materials/laws/mooney_rivlin.hpp"
 #include "kardan/materials/laws/null_material.hpp"
 #include "kardan/materials/laws/ogden.hpp"
+#include "kardan/materials/laws/johnson_cook.hpp"
 #include "kardan/materials/laws/plastic_kinematic.hpp"
+#include "kardan/materials/laws/power_plastic.hpp"
+#include "kardan/materials/laws/rate_plastic.hpp"
 #include "kardan/materials/laws/spotweld.hpp"
 #include "kardan/materials/laws/viscoelastic.hpp"
 #include "kardan/materials/shell_law.hpp"
@@ -28,6 +31,9 @@ KARDAN_ISA_OBJECT(LawKernels, ogden_kernels);
 KARDAN_ISA_OBJECT(LawKernels, spotweld_kernels);
 KARDAN_ISA_OBJECT(LawKernels, viscoelastic_kernels);
 KARDAN_ISA_OBJECT(LawKernels, null_material_kernels);
+KARDAN_ISA_OBJECT(LawKernels, rate_plastic_kernels);
+KARDAN_ISA_OBJECT(LawKernels, power_plastic_kernels);
+KARDAN_ISA_OBJECT(LawKernels, johnson_cook_kernels);
 
 namespace {
 
@@ -72,6 +78,7 @@ std::optional<Law> make(LawSource& source, LawUse use, double shear_factor, cons
   if constexpr (requires { own->used_tensors(); }) law.tensors = own->used_tensors();
   if constexpr (requires { L::plastic_strain; }) law.plastic_strain = L::plastic_strain;
   if constexpr (requires { own->can_fail(); }) law.can_fail = own->can_fail();
+  if constexpr (requires { own->deletion(); }) law.deletion = own->deletion();
   if constexpr (std::is_same_v<L, Elastic>) law.inlined = InlinedLaw::elastic;
   if constexpr (std::is_same_v<L, PiecewisePlastic>) law.inlined = InlinedLaw::piecewise_plastic;
   if (use == LawUse::solid) {
@@ -94,11 +101,16 @@ constexpr Row rows[] = {
     {6, true, true, &make<Viscoelastic>, &viscoelastic_kernels_of_isa},
     {7, true, true, &make<BlatzKo>, &blatz_ko_kernels_of_isa},
     {9, true, true, &make<NullMaterial>, &null_material_kernels_of_isa},
+    {12, true, true, &make<PowerPlastic>, &power_plastic_kernels_of_isa},
+    {15, true, true, &make<JohnsonCook>, &johnson_cook_kernels_of_isa},
+    {18, true, true, &make<PowerPlastic>, &power_plastic_kernels_of_isa},
     {24, true, true, &make<PiecewisePlastic>, &piecewise_plastic_kernels_of_isa},
     {27, true, true, &make<MooneyRivlin>, &mooney_rivlin_kernels_of_isa},
     {77, true, true, &make<HyperelasticRubber>, &hyperelastic_rubber_kernels_of_isa, 'H'},
     {77, true, true, &make<Ogden>, &ogden_kernels_of_isa, 'O'},
+    {98, true, true, &make<PowerPlastic>, &power_plastic_kernels_of_isa},
     {100, false, false, &make<Spotweld>, &spotweld_kernels_of_isa},
+    {123, true, true, &make<RatePlastic>, &rate_plastic_kernels_of_isa},  // and 24 where the law above does not do what the deck asks
 };
 
 /// Laws of beams: those whose two strains across the axis are equal (beam_stress_of.hpp).
@@ -113,8 +125,12 @@ constexpr const char* element_names[] = {"solids", "shells", "beams"};  // by La
 
 /// LS-DYNA's number and the density of a material.
 struct Identify {
+  const Model& model;
+
   std::pair<int, double> operator()(const ElasticMaterial& m) const { return {1, m.density}; }
-  std::pair<int, double> operator()(const PiecewisePlasticMaterial& m) const { return {24, m.density}; }
+  std::pair<int, double> operator()(const PiecewisePlasticMaterial& m) const {
+    return {PiecewisePlastic::computes(m, model.curves) ? 24 : 123, m.density};
+  }
   std::pair<int, double> operator()(const FieldMaterial& m) const { return {m.number, m.density}; }
   std::pair<int, double> operator()(const RigidMaterial& m) const { return {20, m.density}; }
   std::pair<int, double> operator()(const SpringMaterial&) const { return {0, 0}; }
@@ -132,6 +148,31 @@ std::string keyword_of(const Material& material) {
   return {};
 }
 
+/// EPSTHIN and EPSMAJ of *MAT_MODIFIED_PIECEWISE_LINEAR_PLASTICITY.
+std::optional<ErosionCriteria> criteria_of_law(const Material& material) {
+  const auto* m = std::get_if<PiecewisePlasticMaterial>(&material.law);
+  if (m == nullptr || !(m->thinning > 0 || m->major_strain > 0)) return std::nullopt;
+  ErosionCriteria criteria;
+  if (m->thinning > 0) criteria.thinning = m->thinning;
+  if (m->major_strain > 0) criteria.major_strain = m->major_strain;
+  criteria.failing_points = m->failing_points;
+  return criteria;
+}
+
+bool check_erosion(LawSource& source, const Law& law, const ErosionCriteria& criteria, LawUse use) {
+  const auto refuse = [&](const char* what, const char* cure) {
+    source.diagnostics.error(source.name + what, cure, "*MAT_ADD_EROSION");
+    return false;
+  };
+  if (use == LawUse::beam) return refuse(" of beams is to fail by *MAT_ADD_EROSION, which this version does not compute", "take the criteria away");
+  if (criteria.plastic_strain < ErosionCriteria::never && law.plastic_strain == Law::npos)
+    return refuse(" is to fail by its plastic strain (EFFEPS < 0) and has none", "give EFFEPS > 0, or a plastic material");
+  if (use == LawUse::solid && (criteria.thinning < ErosionCriteria::never || criteria.major_strain < ErosionCriteria::never))
+    return refuse(" of solids is to fail by its thinning or major strain (EPSTHIN, EPSMAJ), which are of shells",
+                  "use MXEPS of *MAT_ADD_EROSION for solids");
+  return true;
+}
+
 }  // namespace
 
 bool check_elastic_constants(LawSource& source, double density, double youngs_modulus, double poissons_ratio) {
@@ -144,7 +185,7 @@ bool check_elastic_constants(LawSource& source, double density, double youngs_mo
 
 std::optional<Law> make_law(const Model& model, const Part& part, LawUse use, double shear_factor, Diagnostics& diagnostics) {
   const Material& material = model.materials[static_cast<std::size_t>(part.material)];
-  const auto [number, density] = std::visit(Identify{}, material.law);
+  const auto [number, density] = std::visit(Identify{model}, material.law);
   const auto row = std::find_if(std::begin(rows), std::end(rows), [&, n = number](const Row& r) {
     return r.material == n && r.variant == variant_of(material) && serves(r, use);
   });
@@ -157,7 +198,16 @@ std::optional<Law> make_law(const Model& model, const Part& part, LawUse use, do
     return std::nullopt;
   }
   std::optional<Law> law = row->make(source, use, shear_factor, row->kernels->running());
-  if (law) law->density = density;
+  if (!law) return std::nullopt;
+  law->density = density;
+  if (const std::optional<ErosionCriteria> own = criteria_of_law(material)) {
+    if (!check_erosion(source, *law, *own, use)) return std::nullopt;
+    law = with_erosion(std::move(*law), *own, use);
+  }
+  if (material.erosion) {
+    if (!check_erosion(source, *law, *material.erosion, use)) return std::nullopt;
+    law = with_erosion(std::move(*law), *material.erosion, use);
+  }
   if (source.eos && !source.eos_taken && use == LawUse::solid) {
     diagnostics.warning("part " + std::to_string(part.id) + " names an equation of state; " + source.name + keyword_of(material) + " has none and takes no notice",
                         "set EOSID = 0", "*PART");

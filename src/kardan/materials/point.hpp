@@ -9,6 +9,8 @@
 //   void start(double* values) const;           values[0] to values[history - 1] at the start
 //   double longitudinal() const, shear() const; lambda + 2 mu and mu of the start: time step, hourglass control, bulk viscosity
 //   template <class R> void update(MaterialPoint<R>&, const StepTime&, double* history) const;
+// and, where points may fail,
+//   bool can_fail() const;  ElementDeletion deletion() const;
 // R is a pack of doubles, value i of the pack's points lies at history + i * block_lanes. A law must not branch on data other than
 // "does any lane need this", gives each lane what it would get alone, and does not allocate. docs/adding-a-material.md shows
 // how one is added.
@@ -24,6 +26,11 @@ namespace kardan {
 template <class R>
 struct SymmetricTensor {
   R xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
+
+  template <class F>
+  [[gnu::always_inline]] void for_each(F&& f) {
+    f(xx), f(yy), f(zz), f(xy), f(yz), f(zx);
+  }
 };
 
 template <class R>
@@ -52,6 +59,12 @@ template <class R>
   return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + shear + shear;
 }
 
+/// When an element is deleted because of its material.
+struct ElementDeletion {
+  double points = 0;  ///< as soon as so many of its points have failed; 0: all of them; negative: per cent of them
+  double step = 0;    ///< as soon as its stable step is smaller (TDEL); 0: never
+};
+
 /// The step that brings a point from t_{n-1} to t_n.
 struct StepTime {
   double dt = 0;    ///< t_n - t_{n-1}; 0 in the first cycle
@@ -73,6 +86,11 @@ struct MaterialPoint {
 template <class R>
 struct PlaneStress {
   R xx{}, yy{}, xy{}, yz{}, zx{};
+
+  template <class F>
+  [[gnu::always_inline]] void for_each(F&& f) {
+    f(xx), f(yy), f(xy), f(yz), f(zx);
+  }
 };
 
 /// A point of a shell: the stress normal to the shell vanishes.
@@ -99,5 +117,12 @@ struct BeamPoint {
   BeamStress<R> strain;  ///< increment over the step
   R failed{};            ///< out: 1 where the point has failed
 };
+
+/// A point that has failed carries nothing, also where its element lives on.
+template <class R, template <class> class Point>
+[[gnu::always_inline]] inline void unload_failed(Point<R>& point) {
+  const auto failed = point.failed > R(0.5);
+  if (R::any(failed)) point.stress.for_each([&](R& s) { s = select(failed, R(0.0), s); });
+}
 
 }  // namespace kardan

@@ -65,4 +65,15 @@ template <class R>
   return {{s.xx, s.yy, s.zz}, {x, y, z}};
 }
 
+template <class R>
+struct PrincipalRange {
+  R largest, smallest;
+};
+
+template <class R>
+[[gnu::always_inline]] inline PrincipalRange<R> principal_range(const SymmetricTensor<R>& s) {
+  const Principal<R> p = principal(s);
+  return {max(max(p.value[0], p.value[1]), p.value[2]), min(min(p.value[0], p.value[1]), p.value[2])};
+}
+
 }  // namespace kardan

@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 
 #include "kardan/base/index.hpp"
 #include "kardan/base/vec3.hpp"
+#include "kardan/model/erosion.hpp"
 
 namespace kardan {
 
@@ -33,15 +35,24 @@ struct ElasticMaterial {
   double density = 0, youngs_modulus = 0, poissons_ratio = 0, da = 0, db = 0;
 };
 
-/// *MAT_PIECEWISE_LINEAR_PLASTICITY (024) without failure: yield stress over effective plastic strain from the curve, else from the
-/// points, else SIGY and ETAN; times the rate factor 1 + (rate/C)^(1/P) where C and P are positive (VP = 0).
+/// *MAT_PIECEWISE_LINEAR_PLASTICITY (024) and *MAT_MODIFIED_PIECEWISE_LINEAR_PLASTICITY (123): yield stress over effective plastic strain from
+/// the table of curves by strain rate, else from the curve, else from the points, else from SIGY and ETAN; without a table times the rate
+/// factor 1 + (rate/C)^(1/P) where C and P are positive, or LCSR(rate).
 struct PiecewisePlasticMaterial {
   double density = 0, youngs_modulus = 0, poissons_ratio = 0;
   double yield_stress = 0, tangent_modulus = 0;     ///< SIGY, ETAN (slope of stress over total strain)
   double rate_constant = 0, rate_exponent = 0;      ///< C [1/time], P; 0 = no rate effect
   CurveIndex curve = none;                          ///< LCSS
+  Index table = none;                               ///< LCSS where it names a table
+  CurveIndex rate_curve = none;                     ///< LCSR
   int points = 0;                                   ///< of EPS, ES; 0 or 2 to 8
   std::array<double, 8> strain{}, stress{};         ///< EPS ascending, ES
+  int formulation = 0;                              ///< VP: -1, 0, 1 or 3
+  double filter = 0;                                ///< RFILTF of VP = 3
+  double failure_strain = 0, smallest_step = 0;     ///< FAIL, TDEL; 0 = none
+  bool modified = false;                            ///< 123
+  double thinning = 0, major_strain = 0;            ///< EPSTHIN, EPSMAJ: strains at failure of shells; 0 = none
+  double failing_points = 0;                        ///< NUMINT: see ElementDeletion::points
 };
 
 /// Springs and dampers of *ELEMENT_DISCRETE, S01 to S08.
@@ -111,6 +122,7 @@ struct Material {
   UserId id = 0;
   std::string title;
   std::variant<RigidMaterial, ElasticMaterial, PiecewisePlasticMaterial, SpringMaterial, FieldMaterial, UnsupportedMaterial> law;
+  std::optional<ErosionCriteria> erosion{};  ///< *MAT_ADD_EROSION
 
   bool rigid() const { return std::holds_alternative<RigidMaterial>(law); }
 };

@@ -133,7 +133,7 @@ template <class R>
 struct ShellResultants {
   R fxx{}, fyy{}, fxy{}, qx{}, qy{}, mxx{}, myy{}, mxy{};
   R work{};    ///< of the stresses over the step, per area
-  R intact{};  ///< 0 where every point has failed
+  R intact{};  ///< 0 where too many points have failed
   R stiffening{1.0};
 };
 
@@ -142,7 +142,7 @@ KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, con
                                                    const StepTime& step, R half, double* history) {
   const R dt(step.dt);
   ShellResultants<R> t;
-  R intact{};
+  R failed{};
   const R spin = R(-0.5) * r.xy * dt;  // the axes follow a line of the material along x, which turns by half of the shear more than it
   for (int i = 0; i < p.points; ++i) {
     double* h = history + static_cast<std::size_t>(i) * shell_point_values(law.history()) * block_lanes;
@@ -156,7 +156,7 @@ KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, con
     point.spin = spin;
     law.update(point, step, h + 5 * block_lanes);
     t.stiffening = max(t.stiffening, point.stiffening);
-    intact = max(intact, R(1.0) - point.failed);
+    failed += point.failed;
     t.work += R(0.5) * w * ((old.xx + s.xx) * d.xx + (old.yy + s.yy) * d.yy + (old.xy + s.xy) * d.xy + (old.yz + s.yz) * d.yz +
                             (old.zx + s.zx) * d.zx);
     s.xx.store(h);
@@ -174,7 +174,7 @@ KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, con
     t.myy += wz * s.yy;
     t.mxy += wz * s.xy;
   }
-  t.intact = intact;
+  t.intact = select(failed < R(p.failing_points), R(1.0), R(0.0));
   return t;
 }
 

@@ -16,6 +16,13 @@ namespace {
 
 constexpr int elform_belytschko_tsay = 2;
 
+/// How many of an element's points must fail before it is deleted.
+double failing_points(const ElementDeletion& deletion, int points) {
+  if (deletion.points == 0) return points;
+  const double count = deletion.points > 0 ? deletion.points : std::ceil(-deletion.points / 100 * points - 1e-9);
+  return std::clamp(count, 1.0, static_cast<double>(points));
+}
+
 ShellProperties properties_of(const Model& model, const Part& part, const Law& law) {
   const ShellSection& section = model.sections[part.section].shell;
   const double rho = law.density, e = law.youngs_modulus, nu = law.poissons_ratio;
@@ -27,6 +34,7 @@ ShellProperties properties_of(const Model& model, const Part& part, const Law& l
   for (int i = 0; i < p.points; ++i) p.zeta[i] -= section.nloc;  // NLOC = 1: the nodes lie on the top surface
   p.wave_speed = std::sqrt(e / (rho * (1 - nu * nu)));
   p.side_lengths = model.control.time_step.isdo != 1;
+  p.failing_points = failing_points(law.deletion, p.points);
   const HourglassChoice h = hourglass_of(model, part);
   p.stiffness_hourglass = h.stiffness();
   const double shear_ratio = e > 0 ? transverse / e : 0.0;  // k G / E; shells of *MAT_NULL have neither
@@ -146,7 +154,8 @@ bool ShellForces::set_up_part(const Model& model, PartIndex p, Diagnostics& diag
   laws_[p] = std::move(*law);
   properties_[p] = std::make_shared<const ShellProperties>(properties_of(model, part, laws_[p]));
   elements_.set_kernel(p, {kernel_for(belytschko_tsay(), laws_[p]), properties_[p],
-                           shell_history_size(properties_[p]->points, laws_[p].history()), laws_[p].can_fail});
+                           shell_history_size(properties_[p]->points, laws_[p].history()), laws_[p].can_fail,
+                           laws_[p].deletion.step});
   return true;
 }
 

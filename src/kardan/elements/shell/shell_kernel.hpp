@@ -13,6 +13,7 @@ inline constexpr std::size_t max_shell_points = 32;
 struct ShellProperties {
   LawOfTile law;
   int points = 2;                      ///< through the thickness
+  double failing_points = 2;           ///< an element is deleted when so many of its points have failed
   double zeta[max_shell_points] = {};  ///< z / (h/2) of the points, measured from the surface of the nodes
   double weight[max_shell_points] = {};///< Gauss weights, sum 2
   double wave_speed = 0;               ///< sqrt(E / (rho (1 - nu^2)))

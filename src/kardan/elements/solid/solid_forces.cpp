@@ -114,7 +114,7 @@ bool SolidForces::set_up_part(const Model& model, PartIndex p, Diagnostics& diag
   if (!good) return false;
   laws_[p] = std::move(*law);
   elements_.set_kernel(p, {kernel_for(hexahedron(), laws_[p]), std::make_shared<const SolidProperties>(properties_of(model, part, laws_[p])),
-                           solid_history::law + laws_[p].history(), laws_[p].can_fail});
+                           solid_history::law + laws_[p].history(), laws_[p].can_fail, laws_[p].deletion.step});
   return true;
 }
 

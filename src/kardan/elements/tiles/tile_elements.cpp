@@ -148,6 +148,7 @@ void TileElements::run_tile(std::size_t t, const State& state, std::vector<doubl
   work.step = {state.clock.dt_previous, state.clock.time};
   work.history = history_.data() + history_begin_[t];
   if (part.can_fail) {
+    work.smallest_step = part.smallest_step;
     work.alive = alive_.data() + first;
     work.energy = energy_.data() + first;
   }

@@ -25,6 +25,7 @@ struct PartKernel {
   std::shared_ptr<const void> properties;  ///< of the type that the kernel knows
   std::size_t history_size = 0;            ///< values of an element
   bool can_fail = false;                   ///< its elements may be deleted
+  double smallest_step = 0;                ///< then also where the stable step falls below it
 };
 
 /// The entry of a formulation for a law.

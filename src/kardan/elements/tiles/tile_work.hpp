@@ -23,6 +23,7 @@ struct TileWork {
   std::size_t nodes = 0;
   StepTime step;
   double* history = nullptr;                    ///< [block][values of an element][lane]
+  double smallest_step = 0;                     ///< elements whose stable step falls below it are deleted, where elements can be
   double* alive = nullptr;                      ///< [block][lane] in and out: 1, or 0 if deleted; null where nothing can be deleted
   double* energy = nullptr;                     ///< [block][lane] internal energy of each element, added to; may be null
   const double* step_factor = nullptr;          ///< [element] on the stable step; null: 1

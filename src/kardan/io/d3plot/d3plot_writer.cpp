@@ -20,7 +20,7 @@ int material_type(const Model& model, PartIndex p) {
   if (m == none) return 0;
   const auto& law = model.materials[static_cast<std::size_t>(m)].law;
   if (std::holds_alternative<RigidMaterial>(law)) return 20;
-  if (std::holds_alternative<PiecewisePlasticMaterial>(law)) return 24;
+  if (const auto* plastic = std::get_if<PiecewisePlasticMaterial>(&law)) return plastic->modified ? 123 : 24;
   if (const auto* by_fields = std::get_if<FieldMaterial>(&law)) return by_fields->number;
   return std::holds_alternative<ElasticMaterial>(law) ? 1 : 0;
 }

@@ -1,5 +1,6 @@
 // *MAT_PIECEWISE_LINEAR_PLASTICITY (024) in three dimensions, on a number type R: von Mises' yield condition, associated flow,
-// isotropic hardening. The law of shells is plastic_plane_stress.hpp.
+// isotropic hardening that neither falls nor suddenly steepens. The law of shells is plastic_plane_stress.hpp; what else the keyword may ask
+// for is in rate_plastic.hpp.
 //
 // Radial return (Wilkins 1964, Meth. Comput. Phys. 3, 211-263; Krieg and Krieg 1977, J. Press. Vessel Technol. 99, 510-515): with the
 // deviator s of the elastic trial stress, q = sqrt(3/2 s:s), yield stress Y(p) and increment dp of the effective plastic strain,
@@ -11,6 +12,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "kardan/base/lanes.hpp"
 #include "kardan/materials/laws/elastic.hpp"
@@ -18,7 +20,12 @@
 
 namespace kardan {
 
+struct Curve;
 struct LawSource;
+struct PiecewisePlasticMaterial;
+
+/// Complains where the hardening of *MAT_PIECEWISE_LINEAR_PLASTICITY cannot be computed.
+bool check_piecewise(LawSource& source);
 
 /// Constants of the law. A point keeps its effective plastic strain and its static yield stress.
 struct PiecewisePlastic {
@@ -32,6 +39,8 @@ struct PiecewisePlastic {
 
   /// From *MAT_PIECEWISE_LINEAR_PLASTICITY; complains where it cannot be computed.
   static std::optional<PiecewisePlastic> make(LawSource& source);
+  /// Whether this law does what the deck asks for; else laws/rate_plastic.hpp does.
+  static bool computes(const PiecewisePlasticMaterial& material, const std::vector<Curve>& curves);
 
   double longitudinal() const { return elastic.longitudinal(); }
   double shear() const { return elastic.shear(); }

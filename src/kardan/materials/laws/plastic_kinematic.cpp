@@ -15,7 +15,7 @@ std::optional<PlasticKinematic> PlasticKinematic::make(LawSource& source) {
   if (!(m.value("sigy") > 0)) complain("has no yield stress", "give SIGY > 0");
   if (!(tangent >= 0 && tangent < e)) complain("has a tangent modulus that is not between 0 and E", "give 0 <= ETAN < E");
   if (!(beta >= 0 && beta <= 1)) complain("has a hardening parameter outside [0, 1]", "give BETA from 0 (kinematic) to 1 (isotropic)");
-  if (m.value("vp") != 0) complain("asks for the viscoplastic rate formulation VP = 1, which this version does not compute", "set VP = 0");
+  if (const double vp = m.value("vp"); vp != 0 && vp != 1) complain("has a rate formulation VP that is neither 0 nor 1", "set VP = 0 or 1");
   if (source.diagnostics.error_count() != errors) return std::nullopt;
   PlasticKinematic law;
   law.elastic = Elastic::from(e, m.poissons_ratio);
@@ -24,6 +24,7 @@ std::optional<PlasticKinematic> PlasticKinematic::make(LawSource& source) {
   law.isotropic = beta * plastic_modulus;
   law.kinematic = (1 - beta) * plastic_modulus;
   law.rate_law = CowperSymonds::from(m.value("src"), m.value("srp"));
+  law.viscoplastic = m.value("vp") == 1 && law.rate_law.active();
   const double fs = m.value("fs");
   law.failure_strain = fs < 1e20 ? fs : 0;
   return law;

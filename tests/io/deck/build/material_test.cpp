@@ -40,12 +40,32 @@ TEST(BuildMaterial, PiecewiseLinearPlasticityRefusesWhatItDoesNotCompute) {
     EXPECT_NE(to_string(*u).find(field), std::string::npos) << to_string(*u);
     EXPECT_NE(to_string(*u).find("deck.k:"), std::string::npos) << to_string(*u);
   };
-  refused("5,7.8e-6,210,.3,.25,0,.3\n", "FAIL");
   refused("5,7.8e-6,210,.3,.25,0,-1\n", "FAIL");
-  refused("5,7.8e-6,210,.3,.25,0,0,1e-7\n", "TDEL");
-  refused("5,7.8e-6,210,.3,.25\n0,0,9,9\n", "LCSR");
-  refused("5,7.8e-6,210,.3,.25\n40,5,0,0,1.\n", "VP");
-  refused("5,7.8e-6,210,.3,.25\n0,0,8\n", "LCSS");
+  refused("5,7.8e-6,210,.3,.25\n40,5,9,9\n", "LCSR");
+  refused("5,7.8e-6,210,.3,.25\n40,5,0,0,2.\n", "VP");
+}
+
+TEST(BuildMaterial, PiecewiseLinearPlasticityWithRatesAndFailure) {
+  const Built d(
+      "*DEFINE_CURVE\n9\n0,.2\n1,.4\n*DEFINE_TABLE\n8\n1.,9\n2.,9\n"
+      "*MAT_024\n5,7.8e-6,210,.3,.25,0,.3,1e-7\n0,0,8,0,1.\n"
+      "*MAT_024\n6,7.8e-6,210,.3,.25\n0,0,9,9,3.,0,.8\n"
+      "*MAT_MODIFIED_PIECEWISE_LINEAR_PLASTICITY\n7,7.8e-6,210,.3,.25\n40,5,9,0,0,.1,.2,-60\n");
+  ASSERT_EQ(d.diagnostics.error_count(), 0u) << d.messages();
+  EXPECT_TRUE(d.model.unsupported.empty()) << d.messages();
+  const auto material = [&](std::size_t i) { return std::get<PiecewisePlasticMaterial>(d.model.materials.at(i).law); };
+  EXPECT_EQ(material(0).failure_strain, 0.3);
+  EXPECT_EQ(material(0).smallest_step, 1e-7);
+  EXPECT_EQ(material(0).table, 0);
+  EXPECT_EQ(material(0).curve, none);
+  EXPECT_EQ(material(0).formulation, 1);
+  EXPECT_EQ(material(1).rate_curve, 0);
+  EXPECT_EQ(material(1).formulation, 3);
+  EXPECT_EQ(material(1).filter, 0.8);
+  EXPECT_TRUE(material(2).modified);
+  EXPECT_EQ(material(2).thinning, 0.1);
+  EXPECT_EQ(material(2).major_strain, 0.2);
+  EXPECT_EQ(material(2).failing_points, -60);
 }
 
 TEST(BuildMaterial, PiecewiseLinearPlasticityChecksItsPoints) {
@@ -82,6 +102,55 @@ TEST(BuildMaterial, HyperelasticRubberReadsTheTestWhereNIsGiven) {
   EXPECT_EQ(by_fields(d).value("c10"), 0);
   EXPECT_EQ(by_fields(d, 1).value("c10"), .5);
   EXPECT_EQ(by_fields(d, 1).value("c20"), .02);
+}
+
+TEST(BuildMaterial, AddErosionTakesWhatDiffersFromExcl) {
+  const std::string steel = "*MAT_ELASTIC\n5,7.8e-6,210,.3\n";
+  const Built d("*MAT_ADD_EROSION\n5,0,0,0,-.2,-.1,-50,2\n-3.,1.,0,.3,0,2.,5.,.7\n0\n0,0,.4\n0,0,0,1e-7\n" + steel);
+  ASSERT_EQ(d.diagnostics.error_count(), 0u) << d.messages();
+  EXPECT_TRUE(d.model.unsupported.empty()) << d.messages();
+  ASSERT_TRUE(d.model.materials.at(0).erosion);
+  const ErosionCriteria& e = *d.model.materials[0].erosion;
+  constexpr double never = ErosionCriteria::never;
+  EXPECT_EQ(e.max_pressure, never);
+  EXPECT_EQ(e.min_strain, -never);
+  EXPECT_EQ(e.effective_strain, never);
+  EXPECT_EQ(e.plastic_strain, 0.2);
+  EXPECT_EQ(e.compaction, -0.1);
+  EXPECT_EQ(e.expansion, never);
+  EXPECT_EQ(e.failing_points, -50);
+  EXPECT_EQ(e.needed, 2);
+  EXPECT_EQ(e.min_pressure, -3);
+  EXPECT_EQ(e.principal_stress, 1);
+  EXPECT_EQ(e.mises, never);
+  EXPECT_EQ(e.max_strain, 0.3);
+  EXPECT_EQ(e.shear_strain, never);
+  EXPECT_EQ(e.impulse_stress, 2);
+  EXPECT_EQ(e.impulse, 5);
+  EXPECT_EQ(e.time, 0.7);
+  EXPECT_EQ(e.thinning, 0.4);
+  EXPECT_EQ(e.smallest_step, 1e-7);
+  const Built excluded("*MAT_ADD_EROSION\n5,99\n99,99,99,0.,99,99,99,99\n" + steel);
+  ASSERT_TRUE(excluded.model.materials.at(0).erosion) << excluded.messages();
+  EXPECT_EQ(excluded.model.materials[0].erosion->max_strain, 0);  // zero is a limit where EXCL is not 0
+  EXPECT_EQ(excluded.model.materials[0].erosion->principal_stress, never);
+  EXPECT_EQ(excluded.model.materials[0].erosion->max_pressure, never);
+}
+
+TEST(BuildMaterial, AddErosionRefusesDamageAndCurves) {
+  const auto refused = [](const std::string& cards, const char* field) {
+    const Built d("*MAT_ELASTIC\n5,7.8e-6,210,.3\n*MAT_ADD_EROSION\n" + cards);
+    const Diagnostic* u = d.unsupported("");
+    ASSERT_NE(u, nullptr) << d.messages();
+    EXPECT_NE(to_string(*u).find(field), std::string::npos) << to_string(*u);
+  };
+  refused("5\n\n1\n", "IDAM");
+  refused("5\n0,0,-4\n", "SIGVM");
+  refused("5\n0,0,0,-4\n", "MXEPS");
+  refused("5\n\n\n7\n", "LCFLD");
+  refused("5\n\n\n0,0,-.1\n", "EPSTHIN");
+  const Built unknown("*MAT_ADD_EROSION\n5\n");
+  EXPECT_NE(unknown.error("5"), nullptr) << unknown.messages();
 }
 
 }  // namespace

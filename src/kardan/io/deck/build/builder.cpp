@@ -61,6 +61,7 @@ const std::unordered_map<std::string, Entry>& table() {
       {"ELEMENT_MASS_NODE_SET", {rest, build_mass_node_set}},
       {"ELEMENT_MASS_PART", {rest, build_mass_part}},
       {"ELEMENT_INERTIA", {rest, build_inertia}},
+      {"MAT_ADD_EROSION", {rest, build_erosion}},
       {"CONSTRAINED_RIGID_BODIES", {rest, build_rigid_bodies}},
       {"CONSTRAINED_EXTRA_NODES_NODE", {rest, build_extra_nodes}},
       {"CONSTRAINED_EXTRA_NODES_SET", {rest, build_extra_nodes}},

@@ -161,6 +161,7 @@ void build_section_discrete(Builder&, Block&);
 void build_hourglass(Builder&, Block&);
 void build_material(Builder&, Block&);
 void build_equation_of_state(Builder&, Block&);
+void build_erosion(Builder&, Block&);
 
 void build_curve(Builder&, Block&);
 void build_curve_function(Builder&, Block&);

@@ -15,7 +15,27 @@ bool has_rubber_card(const FieldMaterial& m, std::string_view card) {
 
 const MaterialFields* material_fields(std::string_view keyword) {
   constexpr Dimension force{1, 1, -2}, moment{1, 2, -2}, spring{1, 0, -2}, damper{1, 0, -1}, turning_damper{1, 2, -1};
+  constexpr Dimension heat_capacity{0, 2, -2};  // per mass and degree; temperatures are not converted
   static const std::map<std::string, MaterialFields, std::less<>> rows{
+      {"MAT_ISOTROPIC_ELASTIC_PLASTIC",
+       {12, {{"g", dimension::stress}, {"sigy", dimension::stress}, {"etan", dimension::stress}, {"bulk", dimension::stress}}}},
+      {"MAT_JOHNSON_COOK",
+       {15,
+        {{"g", dimension::stress},
+         {"dtf", dimension::time},
+         {"a", dimension::stress},
+         {"b", dimension::stress},
+         {"epso", dimension::rate},
+         {"cp", heat_capacity},
+         {"pc", dimension::stress}}}},
+      {"MAT_POWER_LAW_PLASTICITY", {18, {{"k", dimension::stress}, {"src", dimension::rate}, {"sigy", dimension::stress}}}},
+      {"MAT_SIMPLIFIED_JOHNSON_COOK",
+       {98,
+        {{"a", dimension::stress},
+         {"b", dimension::stress},
+         {"sigmax", dimension::stress},
+         {"sigsat", dimension::stress},
+         {"epso", dimension::rate}}}},
       {"MAT_PLASTIC_KINEMATIC", {3, {{"sigy", dimension::stress}, {"etan", dimension::stress}, {"src", dimension::rate}}}},
       {"MAT_VISCOELASTIC", {6, {{"bulk", dimension::stress}, {"g0", dimension::stress}, {"gi", dimension::stress}, {"beta", dimension::rate}}}},
       {"MAT_NULL", {9, {{"pc", dimension::stress}, {"mu", {1, -1, -1}}, {"ym", dimension::stress}}}},

@@ -135,6 +135,41 @@ void read_hardening_points(PiecewisePlasticMaterial& m, const Card& strains, con
     stresses.warning("es1", "has stresses, but EPS1 to EPS8 do not ascend: SIGY and ETAN are taken", "give EPS1 to EPS8, or a curve LCSS");
 }
 
+void read_piecewise_failure(Builder& b, PiecewisePlasticMaterial& m, const Card& card) {
+  const double fail = card.real("fail");
+  if (fail < 0) b.unsupported(card, "fail", "failure by a user's subroutine (" + card.text("fail") + ") is not available", "give FAIL >= 0");
+  m.failure_strain = fail < 1e20 ? fail : 0;  // 1e21 is written by programs for "none"
+  m.smallest_step = card.real("tdel", dimension::time);
+  if (m.smallest_step < 0) card.error("tdel", "found " + card.text("tdel") + ", expected a time step", "give TDEL >= 0");
+}
+
+void read_piecewise_rate(Builder& b, PiecewisePlasticMaterial& m, const Card& rate) {
+  m.rate_constant = rate.real("c", dimension::rate);
+  m.rate_exponent = rate.real("p");
+  if (m.rate_constant < 0 || m.rate_exponent < 0) {
+    rate.error("c", "found C = " + rate.text("c") + ", P = " + rate.text("p") + ", expected positive numbers",
+               "give C and P of Cowper and Symonds, or 0");
+  }
+  if (const Index table = b.tables.find(rate.present() ? rate.id("lcss", IdKind::curve) : 0); table != none)
+    m.table = table;
+  else
+    m.curve = b.optional_curve(rate, "lcss");
+  m.rate_curve = b.optional_curve(rate, "lcsr");
+  if (m.rate_curve != none && m.rate_constant > 0 && m.rate_exponent > 0 && m.table == none)
+    b.unsupported(rate, "lcsr", "a curve LCSR beside C and P is not available", "give LCSR, or C and P");
+  if (m.table != none && (m.rate_curve != none || m.rate_constant > 0))
+    rate.warning("lcss", "is a table of curves by strain rate: LCSR, C and P are not used", {});
+  const double vp = rate.real("vp");
+  m.formulation = static_cast<int>(vp);
+  if (vp != -1 && vp != 0 && vp != 1 && vp != 3)
+    b.unsupported(rate, "vp", "the rate formulation VP = " + rate.text("vp") + " is not available", "set VP = -1, 0, 1 or 3");
+  if (m.formulation == 3) {
+    const bool given = Builder::has_field(rate.block(), "card1", "rfiltf");
+    m.filter = given && rate.real("rfiltf") != 0 ? rate.real("rfiltf") : 0.95;
+    if (!(m.filter >= 0 && m.filter < 1)) rate.error("vp", "asks for an average with RFILTF outside [0, 1)", "give 0 <= RFILTF < 1");
+  }
+}
+
 PiecewisePlasticMaterial read_piecewise_plastic(Builder& b, Block& block, const Card& card) {
   const ElasticMaterial elastic = read_elastic_constants(card);
   PiecewisePlasticMaterial m;
@@ -143,25 +178,17 @@ PiecewisePlasticMaterial read_piecewise_plastic(Builder& b, Block& block, const 
   m.poissons_ratio = elastic.poissons_ratio;
   m.yield_stress = card.real("sigy", dimension::stress);
   m.tangent_modulus = card.real("etan", dimension::stress);
-  const double fail = card.real("fail");
-  if (fail < 0 || (fail > 0 && fail < 1e20)) {  // 1e21 is written by programs for "none"
-    b.unsupported(card, "fail", "failure (" + card.text("fail") + ") is not available", "set FAIL = 0 (no failure)");
-  }
-  b.refuse_nonzero(card, "tdel", "deletion of elements by their time step", "set TDEL = 0");
-
+  read_piecewise_failure(b, m, card);
   const Card rate = block.next_optional("card1");
-  b.refuse_nonzero(rate, "lcsr", "scaling of the yield stress by a curve of the strain rate", "use C and P");
-  b.refuse_nonzero(rate, "vp", "a formulation of the rate effect other than VP = 0", "set VP = 0");
-  m.rate_constant = rate.real("c", Dimension{0, 0, -1});
-  m.rate_exponent = rate.real("p");
-  if (m.rate_constant < 0 || m.rate_exponent < 0) {
-    rate.error("c", "found C = " + rate.text("c") + ", P = " + rate.text("p") + ", expected positive numbers",
-               "give C and P of Cowper and Symonds, or 0");
+  read_piecewise_rate(b, m, rate);
+  if (block.keyword == "MAT_MODIFIED_PIECEWISE_LINEAR_PLASTICITY") {
+    m.modified = true;
+    m.thinning = rate.real("epsthin");
+    m.major_strain = rate.real("epsmaj");
+    m.failing_points = rate.real("numint");
+    if (m.thinning < 0) b.unsupported(rate, "epsthin", "thinning of the whole element is not available", "give EPSTHIN > 0 (of each point)");
+    if (m.major_strain < 0) b.unsupported(rate, "epsmaj", "an averaged major strain is not available", "give EPSMAJ > 0");
   }
-  if (b.tables.find(rate.present() ? rate.id("lcss", IdKind::curve) : 0) != none)
-    b.unsupported(rate, "lcss", "a table of curves by strain rate is not available", "give one curve, and C and P for the rate");
-  else
-    m.curve = b.optional_curve(rate, "lcss");
   const Card strains = block.next_optional("card2");
   const Card stresses = block.next_optional("card3");
   if (m.curve == none) read_hardening_points(m, strains, stresses);
@@ -263,7 +290,7 @@ UnsupportedMaterial read_unsupported(const Block& block, const Card& card) {
 void build_material(Builder& b, Block& block) {
   const auto spring = spring_layouts().find(block.keyword);
   const bool rigid = block.keyword == "MAT_RIGID", elastic = block.keyword == "MAT_ELASTIC";
-  const bool plastic = block.keyword == "MAT_PIECEWISE_LINEAR_PLASTICITY";
+  const bool plastic = block.keyword.ends_with("PIECEWISE_LINEAR_PLASTICITY");
   const MaterialFields* fields = material_fields(block.keyword);
   const bool known = plastic || rigid || elastic || fields || spring != spring_layouts().end();
   do {  // an unknown law's cards are not known either: only the first material of the block is read
