@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "kardan/loads/load_system.hpp"
 
@@ -53,13 +54,20 @@ struct Bench {
     }
   }
   void step(LoadSystem& loads, double dt) {
+    step(loads, dt, [](State&) {});
+  }
+  /// add_forces(state) puts other forces on the nodes.
+  template <class F>
+  void step(LoadSystem& loads, double dt, F&& add_forces) {
     state.clock.dt = dt;
     clear_forces();
     loads.apply(model, state);
+    add_forces(state);
     for (std::size_t n = 0; n < state.nodes.x.size(); ++n) {
       state.nodes.v[n] += state.nodes.force[n] * (state.clock.kick() / state.nodes.mass[n]);
       state.nodes.omega[n] += state.nodes.moment[n] * (state.clock.kick() / state.nodes.inertia[n]);
     }
+    loads.damp(model, state);
     loads.constrain_velocities(model, state);
     loads.account(model, state);
     for (std::size_t n = 0; n < state.nodes.x.size(); ++n) state.nodes.x[n] += state.nodes.v[n] * dt;
@@ -67,12 +75,33 @@ struct Bench {
     state.clock.dt_previous = dt;
     ++state.clock.cycle;
   }
+  /// Of the translations.
   double kinetic_energy_after_kick() const {
     double energy = 0;
     for (std::size_t n = 0; n < state.nodes.x.size(); ++n) {
       energy += 0.5 * state.nodes.mass[n] * dot(state.nodes.v[n], state.nodes.v[n]);
     }
     return energy;
+  }
+  Vec3 momentum() const {
+    Vec3 sum;
+    for (std::size_t n = 0; n < state.nodes.x.size(); ++n) sum += state.nodes.v[n] * state.nodes.mass[n];
+    return sum;
+  }
+  /// About the origin.
+  Vec3 angular_momentum() const {
+    Vec3 sum;
+    for (std::size_t n = 0; n < state.nodes.x.size(); ++n)
+      sum += cross(state.nodes.x[n], state.nodes.v[n]) * state.nodes.mass[n] + state.nodes.omega[n] * state.nodes.inertia[n];
+    return sum;
+  }
+  /// Velocities without a pattern.
+  void stir() {
+    for (std::size_t n = 0; n < state.nodes.x.size(); ++n) {
+      const double s = static_cast<double>(n);
+      state.nodes.v[n] = {std::sin(1 + 7 * s), std::cos(3 + s * s), std::sin(2 + 5 * s)};
+      state.nodes.omega[n] = {std::cos(4 * s), std::sin(s * s), std::cos(1 + 3 * s)};
+    }
   }
 };
 

@@ -15,6 +15,7 @@
 #include "kardan/base/rotation.hpp"
 #include "kardan/loads/part_nodes.hpp"
 #include "kardan/state/frames.hpp"
+#include "kardan/state/load_curve.hpp"
 
 namespace kardan {
 
@@ -87,7 +88,8 @@ double BodyForces::apply(const Model& model, State& state) {
     group.spins.clear();
     for (const Index l : group.loads) {
       const BodyLoad& load = model.body_loads[l];
-      const double value = load.scale * (load.curve == none ? 1.0 : model.curves[load.curve].value(state.clock.time));
+      const bool own = state.clock.relaxing && load.relaxation_curve != none;
+      const double value = load.scale * load_curve_value(model, state.clock, own ? load.relaxation_curve : load.curve);
       const Vec3 along = direction(model, state, load);
       if (load.axis >= 3 && load.axis != vector_axis) {
         group.spins.push_back({along * value, load.center});

@@ -1,5 +1,6 @@
 #include "kardan/loads/node_constraints.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -9,6 +10,7 @@
 
 #include "kardan/base/rotation.hpp"
 #include "kardan/state/frames.hpp"
+#include "kardan/state/load_curve.hpp"
 
 namespace kardan {
 
@@ -243,7 +245,7 @@ void NodeConstraints::give_birth(const Model& model, const State& state, std::si
   s.born = 1;
   s.reference = state.nodes.x[n];
   // A displacement that begins later is counted from the position at birth, so that the node does not jump.
-  s.curve_offset = m.birth > 0 ? m.scale * model.curves[m.curve].value(state.clock.time) : 0.0;
+  s.curve_offset = m.birth > 0 ? m.scale * load_curve_value(model, state.clock, m.curve) : 0.0;
   if (row.axis == Axis::tangent) {
     const auto [e, arm] = axis_and_arm(m, s.reference);
     s.rate = dot(cross(e, arm), nodes_[row.node].v_before) / dot(arm, arm);
@@ -254,18 +256,17 @@ void NodeConstraints::give_birth(const Model& model, const State& state, std::si
 
 double NodeConstraints::curve_increment(const Model& model, const State& state, MotionState& s, const PrescribedMotion& m,
                                         double travelled) const {
-  const Curve& curve = model.curves[m.curve];
   const Clock& clock = state.clock;
   switch (m.kind) {
     case MotionKind::velocity:
-      return m.scale * curve.value(clock.time + 0.5 * clock.dt) * clock.dt;
+      return m.scale * load_curve_value(model, clock, m.curve, clock.time + 0.5 * clock.dt) * clock.dt;
     case MotionKind::acceleration:
-      s.rate += m.scale * curve.value(clock.time) * clock.kick();
+      s.rate += m.scale * load_curve_value(model, clock, m.curve) * clock.kick();
       return s.rate * clock.dt;
     case MotionKind::displacement:
-      return m.scale * curve.value(clock.time + clock.dt) - s.curve_offset - travelled;
+      return m.scale * load_curve_value(model, clock, m.curve, clock.time + clock.dt) - s.curve_offset - travelled;
     case MotionKind::velocity_versus_displacement:
-      return m.scale * curve.value(travelled) * clock.dt;
+      return m.scale * load_curve_value(model, clock, m.curve, travelled) * clock.dt;
     case MotionKind::relative_displacement:
       break;
   }
@@ -323,6 +324,11 @@ void NodeConstraints::impose(const Model& model, State& state) {
       }
     }
   }
+}
+
+void NodeConstraints::restart() {
+  std::fill(motion_state_.begin(), motion_state_.end(), MotionState{});
+  std::fill(meters_.begin(), meters_.end(), WorkMeter{});
 }
 
 double NodeConstraints::account(State& state) {

@@ -29,6 +29,8 @@ class NodeConstraints {
   void impose(const Model& model, State& state);
   /// Work of the reactions up to t_n into state.reactions[].work; returns their sum.
   double account(State& state);
+  /// Motions and work begin anew.
+  void restart();
 
  private:
   /// What the direction n of a row is.

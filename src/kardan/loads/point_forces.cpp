@@ -8,6 +8,7 @@
 
 #include "kardan/loads/node_velocity.hpp"
 #include "kardan/state/frames.hpp"
+#include "kardan/state/load_curve.hpp"
 
 namespace kardan {
 
@@ -74,7 +75,7 @@ PointForces::PointForces(const Model& model, State& state, Diagnostics& diagnost
 double PointForces::apply(const Model& model, State& state) {
   for (std::size_t l = 0; l < value_.size(); ++l) {
     const PointLoad& load = model.point_loads[l];
-    const double value = load.scale * (load.curve == none ? 1.0 : model.curves[load.curve].value(state.clock.time));
+    const double value = load.scale * load_curve_value(model, state.clock, load.curve);
     value_[l] = direction(model, state, load) * value;
   }
   for (const Entry& e : entries_) {

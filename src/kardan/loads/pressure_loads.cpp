@@ -11,6 +11,7 @@
 #include <string>
 
 #include "kardan/loads/node_velocity.hpp"
+#include "kardan/state/load_curve.hpp"
 
 namespace kardan {
 
@@ -60,7 +61,7 @@ double PressureLoads::apply(const Model& model, State& state) {
   for (std::size_t l = 0; l < segments_.size(); ++l) {
     const PressureLoad& load = model.pressure_loads[l];
     if (state.clock.time < load.arrival) continue;
-    const double pressure = load.scale * model.curves[load.curve].value(state.clock.time - load.arrival);
+    const double pressure = load.scale * load_curve_value(model, state.clock, load.curve, state.clock.time - load.arrival);
     if (pressure == 0) continue;
     for (const auto& segment : segments_[l]) {
       std::array<Vec3, 4> x;

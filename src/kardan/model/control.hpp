@@ -57,10 +57,21 @@ struct OutputControl {
   int component_flag_shell = 1;
 };
 
+/// *CONTROL_DYNAMIC_RELAXATION: static equilibrium before t = 0, by damped motion.
+struct DynamicRelaxation {
+  bool on = false;           ///< IDRFLG = 1, or a curve of SIDR = 1 or 2 and IDRFLG not -999
+  std::int64_t check = 250;  ///< NRCYCK: cycles between two checks
+  double tolerance = 1e-3;   ///< DRTOL: of the largest kinetic energy
+  double factor = 0.995;     ///< DRFCTR: on the velocities, every cycle
+  double end_time = 1e28;    ///< DRTERM
+  double step_scale = 0;     ///< TSSFDR; 0 = TSSFAC
+};
+
 struct Control {
   Termination termination;
   TimeStepControl time_step;
   RigidControl rigid;
+  DynamicRelaxation relaxation;
   EnergyControl energy;
   double bulk_q1 = 1.5, bulk_q2 = 0.06;
   int hourglass_type = 0;

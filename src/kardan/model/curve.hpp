@@ -1,6 +1,7 @@
 // Load curves and tables (*DEFINE_CURVE, *DEFINE_TABLE).
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct Curve {
   std::string title;
   std::vector<double> x, y;
   std::vector<double> area;  ///< integral from x.front() to x[i], by prepare(); integral() sums afresh where it is empty
+  /// SIDR: the phase of a run that the curve belongs to, where it is one of time.
+  enum class Phase : std::uint8_t { transient, relaxation, both } phase = Phase::transient;
 
   /// Fills `area`, which makes integral() as cheap as value().
   void prepare();

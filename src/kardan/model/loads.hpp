@@ -15,6 +15,7 @@ struct BodyLoad {
   int axis = 0;                    ///< 0-2 translation, 3-5 rotation (angular velocity about the axis), 6 vector
   Vec3 vector{};                   ///< direction of `vector`
   CurveIndex curve = none;         ///< acceleration (angular velocity) against time
+  CurveIndex relaxation_curve = none;  ///< LCIDDR: the same in the dynamic relaxation; none = `curve`
   double scale = 1.0;
   Vec3 center{};                   ///< XC, YC, ZC of rotations
   Index frame = none;
@@ -38,6 +39,24 @@ struct PressureLoad {
   CurveIndex curve = none;                         ///< pressure against the time since `arrival`
   double scale = 1.0;
   double arrival = 0;                              ///< AT: no pressure before it
+};
+
+/// *DAMPING_GLOBAL, *DAMPING_PART_MASS(_SET), *DAMPING_RELATIVE.
+struct DampingLaw {
+  std::vector<PartIndex> parts;     ///< empty = the whole model
+  CurveIndex curve = none;          ///< factor on `value` against time
+  double value = 1.0;               ///< D [1/time]; with `relative_to`: fraction of critical damping at `frequency`
+  Vec3 translation{1, 1, 1};        ///< STX, STY, STZ
+  Vec3 rotation{1, 1, 1};           ///< SRX, SRY, SRZ
+  PartIndex relative_to = none;     ///< _RELATIVE: the rigid body against which velocities are taken
+  double frequency = 0;             ///< FREQ [1/time]
+};
+
+/// *BOUNDARY_NON_REFLECTING: waves leave through these faces of solids.
+struct NonReflectingBoundary {
+  std::vector<std::array<NodeIndex, 4>> segments;  ///< a triangle repeats its third node
+  bool dilatational = true;                        ///< AD = 0: pressure waves are let through
+  bool shear = true;                               ///< AS = 0: shear waves are let through
 };
 
 enum class MotionKind : std::uint8_t { velocity, acceleration, displacement, velocity_versus_displacement,

@@ -12,6 +12,7 @@
 #include "kardan/model/loads.hpp"
 #include "kardan/model/materials.hpp"
 #include "kardan/model/rigid.hpp"
+#include "kardan/model/ties.hpp"
 
 namespace kardan {
 
@@ -50,9 +51,16 @@ struct Model {
   std::vector<JointStiffness> joint_stiffnesses;
   std::vector<RigidBodyStopper> stoppers;
 
+  std::vector<CommonMotion> common_motions;
+  std::vector<RigidGroup> rigid_groups;
+  std::vector<LinearEquation> linear_equations;
+  std::vector<Interpolation> interpolations;
+
   std::vector<BodyLoad> body_loads;
   std::vector<PointLoad> point_loads;
   std::vector<PressureLoad> pressure_loads;
+  std::vector<DampingLaw> dampings;
+  std::vector<NonReflectingBoundary> non_reflecting;
   std::vector<PrescribedMotion> prescribed_motions;
   std::vector<SinglePointConstraint> constraints;
   std::vector<InitialVelocity> initial_velocities;

@@ -274,10 +274,11 @@ void RigidSystem::Impl::fill_body_reports(State& state) const {
   }
 }
 
+void RigidSystem::gather_forces(State& state) const { impl_->gather_forces(state); }
+
 void RigidSystem::kick(const Model& model, State& state) {
   Impl& s = *impl_;
   KARDAN_ASSERT(s.needed_listed);
-  s.gather_forces(state);
   if (state.clock.cycle == 0 && s.stiffness.asks_for_joint_forces()) s.find_first_joint_forces(model, state);
   s.stiffness.apply(model, state, s.bodies, s.joints, s.acting_forces());
   s.set_trial(state);

@@ -36,8 +36,9 @@ class RigidSystem {
   /// Step for decks in which nothing else sets one: a 1/20,000 of the end time.
   double default_time_step(const Model& model, const State& state) const;
 
-  /// Momenta to t_{n+1/2}: resultants of state.nodes.force (needed nodes) and state.bodies.force, joint stiffnesses,
-  /// joints. @throws RunError naming the body where |omega| dt > 1 or a value is not finite.
+  /// Adds the resultants of state.nodes.force and .moment (needed nodes) to state.bodies.force and .moment. Once a cycle.
+  void gather_forces(State& state) const;
+  /// Momenta to t_{n+1/2}: gathered forces, joint stiffnesses, joints. @throws RunError naming the body where |omega| dt > 1 or a value is not finite.
   void kick(const Model& model, State& state);
   /// Poses to t_{n+1}, and with them x of the needed nodes.
   void drift(const Model& model, State& state);

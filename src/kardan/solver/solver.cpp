@@ -85,6 +85,10 @@ void Solver::set_up(const SolverOptions& options, Diagnostics& diagnostics) {
   facts.rigid_elements = {elements_->rigid_courant_time_step(model_, state_), {}, "rigid elements"};
   facts.rigid_default = rigid_->default_time_step(model_, state_);
   rule_ = std::make_unique<TimeStepRule>(model_, facts, options.dt, end_time_);
+  relaxation_pending_ = model_.control.relaxation.on;
+  if (relaxation_pending_)
+    relaxation_rule_ = std::make_unique<TimeStepRule>(model_, facts, options.dt, model_.control.relaxation.end_time,
+                                                      model_.control.relaxation.step_scale);
   diagnostics.notice(rule_->reason());
 }
 
@@ -115,20 +119,17 @@ bool Solver::step() {
   if (stop_ != StopReason::running) return false;
   timers_.start();
   try {
+    if (relaxation_pending_) relax();
     clear_forces();
     loads_->apply(model_, state_);
     timers_.lap(Phase::loads);
     elements_->internal_forces(model_, state_);
     timers_.lap(Phase::elements);
-    choose_time_step();
+    choose_time_step(*rule_);
     stop_ = reason_to_stop();
     find_due_observers();
     timers_.lap(Phase::time_step);
-    nodes_->kick(model_, state_, *elements_, looked_at_);
-    timers_.lap(Phase::nodes);
-    rigid_->kick(model_, state_);
-    timers_.lap(Phase::rigid);
-    loads_->constrain_velocities(model_, state_);
+    kick();
     if (looked_at_) nodes_->settle(state_);
     timers_.lap(Phase::nodes);
     account();
@@ -151,6 +152,17 @@ bool Solver::step() {
   return true;
 }
 
+void Solver::kick() {
+  nodes_->kick(model_, state_, *elements_, looked_at_);
+  timers_.lap(Phase::nodes);
+  rigid_->gather_forces(state_);
+  loads_->damp(model_, state_);
+  timers_.lap(Phase::loads);
+  rigid_->kick(model_, state_);
+  timers_.lap(Phase::rigid);
+  loads_->constrain_velocities(model_, state_);
+}
+
 void Solver::clear_forces() {
   // After a cycle that nobody looked at the free nodes have been cleared already.
   for (NodeIndex node : looked_at_ ? summed_nodes_ : summed_not_kicked_)
@@ -159,11 +171,11 @@ void Solver::clear_forces() {
     std::fill(sums->begin(), sums->end(), Vec3{});
 }
 
-void Solver::choose_time_step() {
+void Solver::choose_time_step(const TimeStepRule& rule) {
   StepBound stable;
   stable.dt = elements_->stable_time_step();
   if (std::isfinite(stable.dt)) stable.owner = owner_of(elements_->governing());
-  step_ = rule_->next(model_, state_.clock, stable, rigid_->stable_time_step(state_));
+  step_ = rule.next(model_, state_.clock, stable, rigid_->stable_time_step(state_));
   if (!(step_.dt > 0) || !std::isfinite(step_.dt))
     throw RunError(fmt::format("time step {:g} (set by {}) at t = {:g}, cycle {}", step_.dt, to_string(step_),
                                state_.clock.time, state_.clock.cycle));

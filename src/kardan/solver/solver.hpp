@@ -77,7 +77,9 @@ class Solver {
   void set_up(const SolverOptions& options, Diagnostics& diagnostics);
   void register_state();
   void clear_forces();
-  void choose_time_step();
+  void choose_time_step(const TimeStepRule& rule);
+  void kick();
+  void relax();
   void account();
   StopReason reason_to_stop() const;
   void find_due_observers();
@@ -89,7 +91,7 @@ class Solver {
   std::unique_ptr<LoadSystem> loads_;
   std::unique_ptr<RigidSystem> rigid_;
   std::unique_ptr<NodeMover> nodes_;
-  std::unique_ptr<TimeStepRule> rule_;
+  std::unique_ptr<TimeStepRule> rule_, relaxation_rule_;
   ClockHand clock_hand_;
   StepBound step_;
   double first_dt_ = 0, end_time_ = 0;
@@ -101,6 +103,7 @@ class Solver {
   std::vector<Observer*> observers_;
   std::vector<Observer*> due_;  ///< those that look at this cycle
   bool looked_at_ = true;       ///< somebody wants energies, or velocities at t_n, of this cycle
+  bool relaxation_pending_ = false;  ///< the dynamic relaxation is still to come
   PhaseTimers<Phase> timers_;
 };
 

@@ -22,10 +22,11 @@ std::string to_string(const StepBound& bound) {
   return fmt::format("{} {}", names[static_cast<int>(bound.owner.kind)], bound.owner.id);
 }
 
-TimeStepRule::TimeStepRule(const Model& model, const StepFacts& facts, std::optional<double> given, double end)
+TimeStepRule::TimeStepRule(const Model& model, const StepFacts& facts, std::optional<double> given, double end,
+                           double scale)
     : end_(end) {
   const TimeStepControl& control = model.control.time_step;
-  scale_ = control.scale > 0 ? control.scale : 0.9;
+  scale_ = scale > 0 ? scale : control.scale > 0 ? control.scale : 0.9;
   limit_ = control.limit;
   if (facts.deformable) {
     first_ = control.initial;

@@ -40,7 +40,8 @@ class TimeStepRule {
 
   /// @param given step of the command line (--dt)
   /// @param end   time at which the run ends
-  TimeStepRule(const Model& model, const StepFacts& facts, std::optional<double> given, double end);
+  /// @param scale factor on the smallest stable step; 0 = TSSFAC
+  TimeStepRule(const Model& model, const StepFacts& facts, std::optional<double> given, double end, double scale = 0);
 
   /// dt of the drift from clock.time on.
   /// @param stable the smallest stable step of elements and springs at t_n, without TSSFAC

@@ -25,6 +25,8 @@ struct Clock {
   double dt = 0;           ///< t_{n+1} - t_n, of the drift to come
   double dt_previous = 0;  ///< t_n - t_{n-1}; 0 at the start
 
+  std::uint64_t relaxing = 0;  ///< 1: in the dynamic relaxation before t = 0
+
   /// Length of the kick at t_n: half the step before and half the step after.
   double kick() const { return 0.5 * (dt_previous + dt); }
   /// Share of the kick that belongs to the time before t_n: v_n = v_{n-1/2} + share (v_{n+1/2} - v_{n-1/2}).

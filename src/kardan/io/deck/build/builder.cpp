@@ -21,6 +21,7 @@ enum Phase : int {
   parts_phase,
   elements_phase,
   sets_phase,
+  switches,
   rest,
   phases
 };
@@ -62,6 +63,8 @@ const std::unordered_map<std::string, Entry>& table() {
       {"ELEMENT_MASS_PART", {rest, build_mass_part}},
       {"ELEMENT_INERTIA", {rest, build_inertia}},
       {"MAT_ADD_EROSION", {rest, build_erosion}},
+      {"DEFORMABLE_TO_RIGID", {switches, build_deformable_to_rigid}},
+      {"DEFORMABLE_TO_RIGID_AUTOMATIC", {rest, build_automatic_switch}},
       {"CONSTRAINED_RIGID_BODIES", {rest, build_rigid_bodies}},
       {"CONSTRAINED_EXTRA_NODES_NODE", {rest, build_extra_nodes}},
       {"CONSTRAINED_EXTRA_NODES_SET", {rest, build_extra_nodes}},
@@ -84,7 +87,20 @@ const std::unordered_map<std::string, Entry>& table() {
       {"DATABASE_CROSS_SECTION_SET", {rest, build_cross_section}},
       {"LOAD_SEGMENT_SET", {rest, build_pressure}},
       {"LOAD_SHELL_ELEMENT", {rest, build_pressure}},
-      {"LOAD_SHELL_SET", {rest, build_pressure}}};
+      {"LOAD_SHELL_SET", {rest, build_pressure}},
+      {"DAMPING_GLOBAL", {rest, build_damping_global}},
+      {"DAMPING_PART_MASS", {rest, build_damping_part}},
+      {"DAMPING_PART_MASS_SET", {rest, build_damping_part}},
+      {"DAMPING_RELATIVE", {rest, build_damping_relative}},
+      {"BOUNDARY_NON_REFLECTING", {rest, build_non_reflecting}},
+      {"CONSTRAINED_SPOTWELD", {rest, build_spotweld}},
+      {"CONSTRAINED_GENERALIZED_WELD_SPOT", {rest, build_generalized_weld}},
+      {"CONSTRAINED_GENERALIZED_WELD_FILLET", {rest, build_generalized_weld}},
+      {"CONSTRAINED_GENERALIZED_WELD_BUTT", {rest, build_generalized_weld}},
+      {"CONSTRAINED_NODE_SET", {rest, build_node_set_constraint}},
+      {"CONSTRAINED_LINEAR_GLOBAL", {rest, build_linear_constraint}},
+      {"CONSTRAINED_LINEAR_LOCAL", {rest, build_linear_constraint}},
+      {"CONSTRAINED_INTERPOLATION", {rest, build_interpolation}}};
   return entries;
 }
 
@@ -161,8 +177,10 @@ void Builder::build() {
       finish_nodal_rigid_bodies(*this);
     }
   }
+  finish_switches(*this);
   check_model(*this);
   replace_relative_motions(*this);
+  finish_relaxation(*this);
   for (Curve& curve : model.curves) curve.prepare();
 }
 
@@ -249,7 +267,7 @@ CurveIndex Builder::curve_or_constant(const Card& card, std::string_view field) 
                "name a *DEFINE_CURVE if the value is to change with time");
   if (constant_one == none) {
     constant_one = static_cast<CurveIndex>(model.curves.size());
-    model.curves.push_back({0, "constant 1", {0.0}, {1.0}, {}});
+    model.curves.push_back({0, "constant 1", {0.0}, {1.0}, {}, Curve::Phase::both});
   }
   return constant_one;
 }

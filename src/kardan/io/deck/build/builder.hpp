@@ -135,6 +135,15 @@ class Builder {
   std::vector<Card> joint_references;                                  ///< joint stiffnesses that name a joint
   std::optional<Card> mass_scaling;                                    ///< *CONTROL_TIMESTEP where DT2MS is not 0
   CurveIndex constant_one = none;
+  struct PartSwitch {
+    Card card;
+    PartIndex part, lead;
+    double time;
+    bool to_rigid;
+  };
+  std::vector<PartSwitch> part_switches;                               ///< of *DEFORMABLE_TO_RIGID_AUTOMATIC
+  bool relaxation_curves = false;                                      ///< some curve has SIDR = 1 or 2
+  std::optional<Card> relaxation;                                      ///< *CONTROL_DYNAMIC_RELAXATION
 
  private:
   void run_phase(int phase);
@@ -180,6 +189,11 @@ void build_nodal_rigid_body(Builder&, Block&);
 void finish_nodal_rigid_bodies(Builder&);
 /// Motions relative to another body (VAD = 4) become motors between the two bodies.
 void replace_relative_motions(Builder&);
+/// *DEFORMABLE_TO_RIGID: before anything asks whether a part is rigid.
+void build_deformable_to_rigid(Builder&, Block&);
+void build_automatic_switch(Builder&, Block&);
+/// Makes rigid groups of the parts that are switched.
+void finish_switches(Builder&);
 void build_rigid_bodies(Builder&, Block&);
 void build_extra_nodes(Builder&, Block&);
 void build_stoppers(Builder&, Block&);
@@ -196,6 +210,15 @@ void build_body_load(Builder&, Block&);
 void build_body_load_parts(Builder&, Block&);
 void build_point_load(Builder&, Block&);
 void build_pressure(Builder&, Block&);
+void build_damping_global(Builder&, Block&);
+void build_damping_part(Builder&, Block&);
+void build_damping_relative(Builder&, Block&);
+void build_non_reflecting(Builder&, Block&);
+void build_spotweld(Builder&, Block&);
+void build_generalized_weld(Builder&, Block&);
+void build_node_set_constraint(Builder&, Block&);
+void build_linear_constraint(Builder&, Block&);
+void build_interpolation(Builder&, Block&);
 
 void build_title(Builder&, Block&);
 void build_control(Builder&, Block&);
@@ -203,6 +226,8 @@ void build_database(Builder&, Block&);
 void build_history(Builder&, Block&);
 void build_cross_section(Builder&, Block&);
 
+/// Settles whether the run begins with a dynamic relaxation; refuses what cannot go with it.
+void finish_relaxation(Builder&);
 void check_model(Builder&);
 
 /// Six tensor fields ixx … izz of a card.

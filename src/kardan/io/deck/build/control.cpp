@@ -78,6 +78,21 @@ void read_shell(Builder& b, Block& block) {
   b.ignored(more, "lamsht", "laminated shell theory is not applied");
 }
 
+void read_relaxation(Builder& b, Block& block) {
+  const Card card = block.next("card0");
+  DynamicRelaxation& r = b.model.control.relaxation;
+  r.check = card.integer("nrcyck") > 0 ? card.integer("nrcyck") : 250;
+  r.tolerance = Builder::real_or(card, "drtol", 1e-3);
+  r.factor = Builder::real_or(card, "drfctr", 0.995);
+  r.end_time = Builder::time_or(card, "drterm", 1e28);
+  r.step_scale = card.real("tssfdr");
+  if (!(r.factor > 0 && r.factor < 1)) card.error("drfctr", "found " + card.text("drfctr") + ", expected a factor between 0 and 1", "correct it");
+  const std::int64_t flag = card.integer("idrflg");
+  if (flag != 0 && flag != 1 && flag != -999)
+    b.unsupported(card, "idrflg", "relaxation of this kind (IDRFLG = " + card.text("idrflg") + ") is not available", "use IDRFLG = 1");
+  b.relaxation = card;
+}
+
 void read_hourglass(Builder& b, Block& block) {
   const Card card = block.next("card0");
   b.model.control.hourglass_type = static_cast<int>(card.integer("ihq"));
@@ -94,11 +109,43 @@ void read_bulk_viscosity(Builder& b, Block& block) {
 
 }  // namespace
 
+void finish_relaxation(Builder& b) {
+  const std::int64_t flag = b.relaxation ? b.relaxation->integer("idrflg") : 0;
+  DynamicRelaxation& r = b.model.control.relaxation;
+  r.on = flag == 1 || (flag == 0 && b.relaxation_curves);
+  if (!r.on) return;
+  if (b.relaxation)
+    b.refuse_nonzero(*b.relaxation, "irelal", "automatic choice of the relaxation factor", "leave IRELAL at 0 and give DRFCTR");
+  const auto refuse = [&](std::string message) {
+    b.model.unsupported.push_back({Severity::error, {}, "*CONTROL_DYNAMIC_RELAXATION", "", std::move(message),
+                                   "use loads, or IDRFLG = -999 for no relaxation"});
+  };
+  for (const PrescribedMotion& motion : b.model.prescribed_motions) {
+    const Curve* curve = motion.curve == none ? nullptr : &b.model.curves[static_cast<std::size_t>(motion.curve)];
+    if (motion.body_part != none) {
+      refuse("prescribed motions of rigid bodies beside a dynamic relaxation are not available");
+      break;
+    }
+    if (motion.kind == MotionKind::displacement && curve && curve->phase != Curve::Phase::transient) {
+      refuse("a prescribed displacement in a dynamic relaxation (SIDR = 1 or 2) is not available");
+      break;
+    }
+  }
+  for (const Joint& joint : b.model.joints) {
+    if (joint.curve == none) continue;
+    refuse("motors beside a dynamic relaxation are not available");
+    break;
+  }
+  if (!b.model.initial_velocities.empty())
+    b.diagnostics.notice("the dynamic relaxation begins at rest; initial velocities are set at its end", "*CONTROL_DYNAMIC_RELAXATION");
+}
+
 void build_control(Builder& b, Block& block) {
   static const std::map<std::string, Handler> readers{{"CONTROL_TERMINATION", read_termination},
                                                       {"CONTROL_TIMESTEP", read_time_step},
                                                       {"CONTROL_RIGID", read_rigid},
                                                       {"CONTROL_ENERGY", read_energy},
+                                                      {"CONTROL_DYNAMIC_RELAXATION", read_relaxation},
                                                       {"CONTROL_SHELL", read_shell},
                                                       {"CONTROL_HOURGLASS", read_hourglass},
                                                       {"CONTROL_BULK_VISCOSITY", read_bulk_viscosity}};

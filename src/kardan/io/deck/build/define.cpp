@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -20,11 +21,8 @@ double or_one(double factor) {
   return factor == 0 ? 1.0 : factor;
 }
 
-/// Reports what a curve's head asks for and Kardan does not do.
-void check_curve_head(Builder& b, const Block& block, const Card& card) {
-  if (card.integer("sidr") == 1) {
-    b.unsupported(card, "sidr", "a curve for the dynamic relaxation phase only is not available", "use SIDR = 0");
-  }
+/// SIDR of a curve's head; reports what it asks for and Kardan does not do.
+Curve::Phase curve_phase(Builder& b, const Block& block, const Card& card) {
   const IncludeContext& context = block.context();
   if (context.mass != 1 || context.length != 1 || context.time != 1) {
     b.unsupported(block,
@@ -32,6 +30,10 @@ void check_curve_head(Builder& b, const Block& block, const Card& card) {
                   "on who uses it",
                   "move the curve to the main deck in its units");
   }
+  constexpr std::array phases{Curve::Phase::transient, Curve::Phase::relaxation, Curve::Phase::both};
+  const Curve::Phase phase = phases[static_cast<std::size_t>(b.integer_in(card, "sidr", 0, 2))];
+  if (phase != Curve::Phase::transient) b.relaxation_curves = true;
+  return phase;
 }
 
 /// Makes the abscissae ascend strictly: sorts the points where they do not ascend, drops repeated points, and moves the
@@ -87,7 +89,7 @@ void build_curve(Builder& b, Block& block) {
   Curve curve;
   curve.title = title_of(block);
   const Card card = block.next("card0");
-  check_curve_head(b, block, card);
+  curve.phase = curve_phase(b, block, card);
   curve.id = card.id("lcid", IdKind::curve);
   const double sfa = or_one(card.real("sfa")), sfo = or_one(card.real("sfo"));
   const double offa = card.real("offa"), offo = card.real("offo");
@@ -117,7 +119,7 @@ void build_curve_function(Builder& b, Block& block) {
   Curve curve;
   curve.title = title_of(block);
   const Card card = block.next("card0");
-  check_curve_head(b, block, card);
+  curve.phase = curve_phase(b, block, card);
   curve.id = card.id("lcid", IdKind::curve);
   std::string text;
   SourceLocation where = card.where();

@@ -276,9 +276,6 @@ void build_initial_velocity_generation(Builder& b, Block& block) {
     if (v.omega != 0 && norm(v.axis_direction) == 0) {
       axis.error("nx", "OMEGA is given but the axis has no direction", "give NX, NY, NZ");
     }
-    if (axis.integer("phase") == 1) {
-      b.unsupported(axis, "phase", "velocities set after a dynamic relaxation are not available", "use PHASE = 0");
-    }
     if (type != 3 && !v.all_nodes) {
       v.nodes = b.sets->nodes_of_parts(v.parts);
     }
@@ -308,7 +305,7 @@ void build_body_load(Builder& b, Block& block) {
     load.scale = Builder::real_or(card, "sf", 1.0);
     load.center = card.point("xc");
     load.frame = b.optional_reference(card, "cid", b.frames);
-    b.ignored(card, "lciddr", "there is no dynamic relaxation phase");
+    load.relaxation_curve = b.optional_curve(card, "lciddr");
     if (load.axis == 6) {
       const Card vector = block.next("card1");
       load.vector = vector.direction("v1");

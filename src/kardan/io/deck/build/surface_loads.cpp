@@ -1,4 +1,4 @@
-// *LOAD_SEGMENT, *LOAD_SHELL.
+// *LOAD_SEGMENT, *LOAD_SHELL, *BOUNDARY_NON_REFLECTING.
 #include "kardan/io/deck/build/builder.hpp"
 #include "kardan/io/deck/build/sets.hpp"
 
@@ -79,6 +79,16 @@ void build_pressure(Builder& b, Block& block) {
     if (load.arrival > 0) card.warning("at", "the curve is read at the time since the arrival, t - AT");
     if (load.curve != none && !load.segments.empty()) b.model.pressure_loads.push_back(std::move(load));
   }
+}
+
+void build_non_reflecting(Builder& b, Block& block) {
+  block.for_each("card0", [&](const Card& card) {
+    NonReflectingBoundary boundary;
+    boundary.segments = segments_of_set(b, card);
+    boundary.dilatational = card.real("ad") == 0;
+    boundary.shear = card.real("as_") == 0;
+    if (!boundary.segments.empty()) b.model.non_reflecting.push_back(std::move(boundary));
+  });
 }
 
 }  // namespace kardan::deck
