@@ -42,7 +42,7 @@ const std::vector<Index>& shells(const CrossSection& s) { return s.elements[stat
 TEST(BuildCrossSection, PlaneTakesTheCutElementsAndTheirNodesOnTheHeadsSide) {
   const Built b(strip +
                 "*DATABASE_CROSS_SECTION_PLANE_ID\n5,middle\n0,1.4,0,0,2.4,0,0\n\n"
-                "*DATABASE_CROSS_SECTION_PLANE\n1,3.5,0,0,2.5,0,0\n3.5,1,0,2.,1.");
+                "*DATABASE_CROSS_SECTION_PLANE\n0,3.5,0,0,2.5,0,0\n3.5,1,0,2.,1.");
   ASSERT_TRUE(b.diagnostics.ok()) << b.messages();
   ASSERT_EQ(b.model.cross_sections.size(), 2u);
   const CrossSection& s = b.model.cross_sections[0];
