@@ -69,7 +69,8 @@ KARDAN_INLINE void for_each_block(TileWork& work, std::size_t components, std::s
     }
     for (std::size_t l = 0; l < lanes; ++l) {
       if (alive) {
-        alive[l] = block.time_step[l] < work.smallest_step ? 0.0 : block.alive[l];
+        const bool too_small = work.smallest_step > 0 && block.time_step[l] < work.smallest_step;
+        alive[l] = too_small ? 0.0 : block.alive[l];
         if (!(alive[l] > 0)) block.time_step[l] = __builtin_inf();
       }
       const double step = work.step_factor ? work.step_factor[first + l] * block.time_step[l] : block.time_step[l];

@@ -1,4 +1,11 @@
+#include <unistd.h>
+
 #include "io/deck/build/build_fixture.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include "kardan/io/deck/load.hpp"
 
 namespace kardan::deck {
 namespace {
@@ -151,6 +158,43 @@ TEST(BuildMaterial, AddErosionRefusesDamageAndCurves) {
   refused("5\n\n\n0,0,-.1\n", "EPSTHIN");
   const Built unknown("*MAT_ADD_EROSION\n5\n");
   EXPECT_NE(unknown.error("5"), nullptr) << unknown.messages();
+}
+
+/// An include in t, mm, s read into kg, m, s: stress times 1e6, time and strain as they are, c_p of mJ/(t K) times 1e-6.
+TEST(BuildMaterial, MetalsAreConvertedToTheMainDecksUnits) {
+  const auto folder = std::filesystem::temp_directory_path() / ("kardan_build_metals_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "metals.k") << "*KEYWORD\n*MAT_JOHNSON_COOK\n1,7.8e-9,8.1e4,2.1e5,.3,1e-7\n300.,400.,.26,.05,1.,1800.,293.,.2\n"
+                                        "4.5e8,-900.,1.\n0,0,0,0,2\n*MAT_098\n2,7.8e-9,2.1e5,.3,1\n300.,400.,.26,.05\n"
+                                        "*MAT_018\n3,7.8e-9,2.1e5,.3,600.,.2,40.,5.\n300.,.4\n*MAT_012\n4,7.8e-9,8.1e4,250.,2000.,1.7e5\n"
+                                        "*MAT_ADD_EROSION\n4\n-100.,0,300.,.1,0,20.,500.,.5\n*END\n";
+  std::ofstream(folder / "main.k") << "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*INCLUDE_TRANSFORM\nmetals.k\n\n\n1000.,1.,.001\n\n*END\n";
+  Diagnostics diagnostics;
+  const Model m = load_model(folder / "main.k", {}, diagnostics);
+  ASSERT_TRUE(diagnostics.ok()) << diagnostics.all()[0].message;
+  const auto fields = [&](std::size_t i) { return std::get<FieldMaterial>(m.materials.at(i).law); };
+  const auto near = [&](std::size_t i, const char* field, double expected) {
+    EXPECT_NEAR(fields(i).value(field) / expected, 1, 1e-12) << field;
+  };
+  EXPECT_EQ(fields(0).number, 15);
+  EXPECT_NEAR(fields(0).density, 7800, 1e-9);
+  near(0, "g", 8.1e10), near(0, "dtf", 1e-7), near(0, "a", 3e8), near(0, "b", 4e8), near(0, "n", .26), near(0, "tm", 1800);
+  near(0, "epso", .2), near(0, "cp", 450), near(0, "pc", -9e8), near(0, "spall", 1), near(0, "numint", 2), near(0, "efmin", 1e-6);
+  EXPECT_EQ(fields(1).number, 98);
+  near(1, "a", 3e8), near(1, "vp", 1), near(1, "psfail", 1e17), near(1, "epso", 1);
+  EXPECT_GT(fields(1).value("sigsat"), 1e20);
+  EXPECT_EQ(fields(2).number, 18);
+  near(2, "k", 6e8), near(2, "n", .2), near(2, "src", 40), near(2, "sigy", 3e8), near(2, "epsf", .4);
+  EXPECT_EQ(fields(3).number, 12);
+  near(3, "g", 8.1e10), near(3, "sigy", 2.5e8), near(3, "etan", 2e9), near(3, "bulk", 1.7e11);
+  const ErosionCriteria& e = m.materials[3].erosion.value();
+  EXPECT_NEAR(e.min_pressure, -1e8, 1e-4);
+  EXPECT_NEAR(e.mises, 3e8, 1e-4);
+  EXPECT_EQ(e.max_strain, .1);
+  EXPECT_NEAR(e.impulse_stress, 2e7, 1e-5);
+  EXPECT_NEAR(e.impulse, 500e12, 1);
+  EXPECT_EQ(e.time, .5);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace
