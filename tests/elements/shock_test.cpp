@@ -54,7 +54,7 @@ Shocked drive(const EquationOfState& eos, double density, double piston, double 
   s.volume = (at(last) - at(first)) / (last - first);
   int front = 0;
   while (-b.state.results.solid.stress[static_cast<std::size_t>(front)][0] > 0.5 * s.pressure) ++front;
-  s.front = (front + 0.5) / b.state.clock.time;
+  s.front = front / b.state.clock.time;
   double kinetic = 0;
   for (std::size_t n = 0; n < b.model.nodes.size(); ++n) {
     if (n % columns != 0) kinetic += 0.5 * b.state.nodes.mass[n] * dot(b.state.nodes.v[n], b.state.nodes.v[n]);

@@ -7,7 +7,9 @@
 #include "kardan/materials/beam_stress_of.hpp"
 #include "kardan/materials/law.hpp"
 #include "kardan/materials/laws/blatz_ko.hpp"
+#include "kardan/materials/laws/crushable_foam.hpp"
 #include "kardan/materials/laws/hyperelastic_rubber.hpp"
+#include "kardan/materials/laws/low_density_foam.hpp"
 #include "kardan/materials/laws/mooney_rivlin.hpp"
 #include "kardan/materials/laws/null_material.hpp"
 #include "kardan/materials/laws/ogden.hpp"
@@ -34,6 +36,8 @@ KARDAN_ISA_OBJECT(LawKernels, null_material_kernels);
 KARDAN_ISA_OBJECT(LawKernels, rate_plastic_kernels);
 KARDAN_ISA_OBJECT(LawKernels, power_plastic_kernels);
 KARDAN_ISA_OBJECT(LawKernels, johnson_cook_kernels);
+KARDAN_ISA_OBJECT(LawKernels, low_density_foam_kernels);
+KARDAN_ISA_OBJECT(LawKernels, crushable_foam_kernels);
 
 namespace {
 
@@ -106,6 +110,8 @@ constexpr Row rows[] = {
     {18, true, true, &make<PowerPlastic>, &power_plastic_kernels_of_isa},
     {24, true, true, &make<PiecewisePlastic>, &piecewise_plastic_kernels_of_isa},
     {27, true, true, &make<MooneyRivlin>, &mooney_rivlin_kernels_of_isa},
+    {57, true, false, &make<LowDensityFoam>, &low_density_foam_kernels_of_isa},
+    {63, true, false, &make<CrushableFoam>, &crushable_foam_kernels_of_isa},
     {77, true, true, &make<HyperelasticRubber>, &hyperelastic_rubber_kernels_of_isa, 'H'},
     {77, true, true, &make<Ogden>, &ogden_kernels_of_isa, 'O'},
     {98, true, true, &make<PowerPlastic>, &power_plastic_kernels_of_isa},

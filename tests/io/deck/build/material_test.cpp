@@ -197,5 +197,25 @@ TEST(BuildMaterial, MetalsAreConvertedToTheMainDecksUnits) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(BuildMaterial, EquationsOfStateAreNamedByTheirParts) {
+  const Built d(two_blocks + "*MAT_NULL\n5,8.93,-1.5,.1\n*EOS_GRUNEISEN\n7,3.94,1.489,.02,.01,2.02,.47,.5\n1.\n*EOS_LINEAR_POLYNOMIAL\n8,.1,.2,.3,.4,.5,.6,.7\n2.5,1.\n"
+                "*PART\nfluid\n9,1,5,8\n");
+  ASSERT_EQ(d.diagnostics.error_count(), 0u) << d.messages();
+  EXPECT_TRUE(d.model.unsupported.empty()) << d.messages();
+  ASSERT_EQ(d.model.equations_of_state.size(), 2u);
+  const EquationOfState &g = d.model.equations_of_state[0], &p = d.model.equations_of_state[1];
+  EXPECT_EQ(g.form, EquationOfState::Form::gruneisen);
+  EXPECT_EQ(g.constants[5], .47);
+  EXPECT_EQ(g.initial_energy, .5);
+  EXPECT_EQ(g.initial_volume, 1);
+  EXPECT_EQ(p.constants[6], .7);
+  EXPECT_EQ(p.initial_energy, 2.5);
+  EXPECT_EQ(d.model.parts[0].equation_of_state, none);
+  EXPECT_EQ(d.model.parts[2].equation_of_state, 1);
+  EXPECT_EQ(by_fields(d, 1).value("pc"), -1.5);
+  const Built lost(two_blocks + "*MAT_NULL\n5,8.93\n*PART\nfluid\n9,1,5,8\n");
+  EXPECT_NE(lost.error("equation of state 8"), nullptr) << lost.messages();
+}
+
 }  // namespace
 }  // namespace kardan::deck

@@ -42,6 +42,8 @@ const MaterialFields* material_fields(std::string_view keyword) {
       {"MAT_BLATZ-KO_RUBBER", {7, {{"g", dimension::stress}}}},
       {"MAT_MOONEY-RIVLIN_RUBBER",
        {27, {{"a", dimension::stress}, {"b", dimension::stress}, {"sgl", dimension::length}, {"sw", dimension::length}, {"st", dimension::length}}}},
+      {"MAT_LOW_DENSITY_FOAM", {57, {{"tc", dimension::stress}, {"beta", dimension::rate}, {"ed", dimension::stress}, {"kcon", dimension::stress}}}},
+      {"MAT_CRUSHABLE_FOAM", {63, {{"tsc", dimension::stress}}}},
       {"MAT_HYPERELASTIC_RUBBER",
        {77,
         {{"g", dimension::stress},    {"sigf", dimension::stress}, {"sgl", dimension::length}, {"sw", dimension::length},
