@@ -53,7 +53,7 @@ class CorpusRun : public testing::Test {
   }
 
   /// Runs a deck to its end and checks what every run owes: normal termination, finite energies, joints that hold.
-  nlohmann::json finished(const fs::path& deck, std::vector<std::string> options = {}) {
+  nlohmann::json finished(const fs::path& deck, std::vector<std::string> options = {}, double energy_error = 0.02) {
     const fs::path results = folder / deck.stem();
     options.insert(options.begin(), {"run", deck.string(), "-o", results.string()});
     EXPECT_EQ(call(options), 0) << out << err;
@@ -64,7 +64,7 @@ class CorpusRun : public testing::Test {
     EXPECT_GT(summary["energies"]["kinetic"].get<double>(), 0);
     for (const auto& [name, value] : summary["energies"].items())  // null would be a number that is none
       EXPECT_TRUE(value.is_number()) << name;
-    EXPECT_NEAR(summary["energies"]["ratio"].get<double>(), 1, 0.02);
+    EXPECT_NEAR(summary["energies"]["ratio"].get<double>(), 1, energy_error);
     EXPECT_LT(summary["joint_separation"].at("distance").get<double>(), 1e-9);
     EXPECT_LT(summary["joint_separation"].at("angle").get<double>(), 1e-9);
     for (const fs::directory_entry& file : fs::directory_iterator(results)) {
@@ -116,7 +116,7 @@ TEST_F(CorpusRun, JointRevoluteWithYieldMoment) {
 }
 
 TEST_F(CorpusRun, JointTranslational) {
-  const nlohmann::json s = finished(corpus / "dynakw/joint_translational.k");
+  const nlohmann::json s = finished(corpus / "dynakw/joint_translational.k", {}, 0.05);
   // The deck gives two nodes of a body a velocity that its joint forbids.
   EXPECT_NEAR(s["energies"]["initial_joint_loss"].get<double>(), 1.6813125 - s["energies"]["initial"].get<double>(),
               1e-9);
@@ -130,7 +130,7 @@ TEST_F(CorpusRun, EnergyRatioOfJointTranslationalIsTheReadingOfCentralDifference
   double coarser = 0;
   for (const std::string tssfac : {"0.9", "0.45", "0.225"}) {
     const fs::path deck = translational(tssfac);
-    finished(deck);
+    finished(deck, {}, 0.05);
     const auto [least, most] = ratio_range(deck);
     EXPECT_GT(least, 0.999) << tssfac;
     EXPECT_LT(most, tssfac == "0.9" ? 1.05 : coarser) << tssfac;
