@@ -73,9 +73,13 @@ struct Pack {
   }
   /// base[index] of every lane.
   KARDAN_INLINE static Pack gather(const double* base, const Mask& index) {
+#if defined(__AVX512F__)
+    return Pack(Pack::Vector(_mm512_mask_i64gather_pd(__m512d{}, 0xff, (__m512i)index, base, sizeof(double))));
+#else
     Pack r;
     for (std::size_t l = 0; l < native_lanes; ++l) r.v[l] = base[index[l]];
     return r;
+#endif
   }
 
   KARDAN_INLINE Pack& operator+=(const Pack& b) { v += b.v; return *this; }

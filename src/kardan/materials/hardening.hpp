@@ -25,18 +25,26 @@ struct HardeningCurve {
   struct Piece {
     R from, stress, slope, to;
   };
-  /// The piece that holds the plastic strain p: a search in halves, without branches.
+  /// The piece that holds the plastic strain p: in a short table the pieces below it are counted, a long one is searched in halves.
   template <class R>
   [[gnu::always_inline]] Piece<R> piece(const R& p) const {
     if (row_count == 1) return {R(rows[0]), R(rows[1]), R(rows[2]), R(rows[3])};
     typename R::Mask row{};
-    for (std::size_t half = row_count / 2; half > 0; half /= 2) {
-      const typename R::Mask next = row + static_cast<std::int64_t>(half * hardening_columns);
-      const typename R::Mask below = R::gather(rows, next) > p;
-      row = below ? row : next;
+    if (row_count <= counted_rows) {
+      const auto step = typename R::Mask{} + static_cast<std::int64_t>(hardening_columns);
+      for (std::size_t k = 1; k < row_count; ++k) row += (p < R(rows[k * hardening_columns])) ? typename R::Mask{} : step;
+    } else {
+      for (std::size_t half = row_count / 2; half > 0; half /= 2) {
+        const typename R::Mask next = row + static_cast<std::int64_t>(half * hardening_columns);
+        const typename R::Mask below = R::gather(rows, next) > p;
+        row = below ? row : next;
+      }
     }
     return {R::gather(rows, row), R::gather(rows + 1, row), R::gather(rows + 2, row), R::gather(rows + 3, row)};
   }
+
+ private:
+  static constexpr std::size_t counted_rows = 16;
 };
 
 /// 1 + (rate/C)^(1/P) of Cowper and Symonds 1957; C = 0: no rate effect.

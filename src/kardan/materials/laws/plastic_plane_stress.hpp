@@ -8,10 +8,14 @@
 //   a = a_trial Y/(Y + k_a p),  b, xy likewise with k_b,  yz, zx with k_t,   k_a = E/(2 (1-nu)), k_b = 3 G, k_t = 3 k G,
 // and the condition q = Y is, with the trial values,
 //   S(p) = (a^2/4)/(Y + k_a p)^2 + (3 b^2/4 + 3 xy^2)/(Y + k_b p)^2 + 3 (yz^2 + zx^2)/(Y + k_t p)^2 = 1.
-// Newton's method is applied to S^(-1/2) = 1. On a straight piece of hardening S^(-1/2) is concave and nearly linear in p (a straight
-// line where the three k are equal): it converges from p = 0 without overshooting, mostly in two steps. Where p leaves a piece of the
-// hardening curve, the next piece is looked up and the iteration goes on. A lane that has converged is not touched any more, so its
-// result does not depend on its neighbours.
+// Halley's method is applied to g = S^(-1/2) = 1. On a straight piece of hardening g is concave and nearly linear in p (a straight line
+// where the three k are equal). With the parts u of S, the increases d = (Y' + k)/(Y + k p) of their denominators, F1 and F2 the sums of
+// u d and u d^2,
+//   dp = S (sqrt(S) - 1)/F1 (1 + e),   e = 3/2 (sqrt(S) - 1) (F2 S - F1^2)/F1^2.
+// At p = 0 all denominators are Y, so that the first step costs little. A step from where |q/Y - 1| is below 5e-4 leaves less than 1e-10:
+// the lane is done with it, and the reciprocals of its denominators follow by their series. Where p leaves a piece of the
+// hardening curve, the next piece is looked up and the iteration goes on. A lane that is done is not touched any more, so its result
+// does not depend on its neighbours.
 //
 // Rate: Y = (1 + (rate/C)^(1/P)) Y_static (Cowper and Symonds 1957), VP = 0: the rate is that of the total strain over the step,
 // sqrt(e_ij e_ij) with e_zz = -(e_xx + e_yy), that is with the thickness rate of plastic flow.
@@ -30,6 +34,7 @@ struct PlasticPlaneStress {
   static constexpr std::size_t history = 2;
   static constexpr int iterations = 40;       ///< at most; far more than are needed
   static constexpr double tolerance = 1e-10;  ///< of q/Y - 1
+  static constexpr double last_step = 5e-4;   ///< from |q/Y - 1| below this one more step is enough
 
   ElasticPlaneStress elastic;
   double k_a = 0, k_b = 0, k_t = 0;           ///< E/(2 (1-nu)), 3 G, 3 k G
@@ -107,39 +112,58 @@ struct PlasticPlaneStress {
   struct Return {
     R increment, sum, rest, transverse, static_yield;
   };
+  /// Estimate of the increment by one step of Halley's method from none; 0 in lanes that are not plastic.
+  template <class R, class Mask>
+  [[gnu::always_inline]] R first_increment(const Trial<R>& t, const Mask& plastic, const R& yield, const R& slope) const {
+    const R d_a = slope + R(k_a), d_b = slope + R(k_b), d_t = slope + R(k_t);
+    const R ua = t.in_plane_sum * d_a, ub = t.in_plane_rest * d_b, ut = t.transverse * d_t;
+    const R square = t.in_plane_sum + t.in_plane_rest + t.transverse, a1 = ua + ub + ut, a2 = ua * d_a + ub * d_b + ut * d_t;
+    const R over = sqrt(square) - yield, ya1 = yield * a1, inverse = R(1.0) / (ya1 * a1);
+    const R e = min(R(1.5) * over * (a2 * square - a1 * a1) * inverse, R(0.25));
+    return select(plastic, over * square * (ya1 * inverse) * (R(1.0) + e + e * e), R(0.0));
+  }
   template <class R, class Mask>
   [[gnu::always_inline]] Return<R> return_map(const Trial<R>& t, const Mask& plastic, const R& strain, const R& rate) const {
     auto h = hardening.piece(strain);
     Return<R> r{};
-    R yield, to_sum, to_rest, to_transverse;
+    const R start = rate * (h.stress + h.slope * (strain - h.from));
+    r.increment = first_increment(t, plastic, start, rate * h.slope);
+    follow(h, plastic & (strain + r.increment > h.to), strain + r.increment);
+    Mask open = plastic;
     for (int i = 0; i < iterations; ++i) {
-      r.static_yield = h.stress + h.slope * (strain + r.increment - h.from);
-      yield = rate * r.static_yield;
+      const R slope = rate * h.slope, yield = rate * (h.stress + h.slope * (strain + r.increment - h.from));
       const R a = yield + R(k_a) * r.increment, b = yield + R(k_b) * r.increment, c = yield + R(k_t) * r.increment;
-      const R bc = b * c, inverse = R(1.0) / (a * bc);
-      to_sum = bc * inverse;
-      to_rest = a * c * inverse;
-      to_transverse = a * b * inverse;
+      const R bc = b * c, inverse = R(1.0) / (a * bc), ac = a * inverse;
+      const R to_sum = bc * inverse, to_rest = c * ac, to_transverse = b * ac;
       const R u = t.in_plane_sum * (to_sum * to_sum), v = t.in_plane_rest * (to_rest * to_rest),
               w = t.transverse * (to_transverse * to_transverse);
-      const R square = u + v + w, excess = sqrt(square) - R(1.0);
-      const Mask active = plastic & (abs(excess) > R(tolerance));
-      if (!R::any(active)) break;
-      const R slope = rate * h.slope;
-      const R fall = u * to_sum * (slope + R(k_a)) + v * to_rest * (slope + R(k_b)) + w * to_transverse * (slope + R(k_t));
-      r.increment += select(active, square * excess / fall, R(0.0));
-      const R now = strain + r.increment;
-      const Mask left = active & ((now > h.to) | (now < h.from));
-      if (hardening.row_count > 1 && R::any(left)) {
-        const auto other = hardening.piece(now);
-        h = {select(left, other.from, h.from), select(left, other.stress, h.stress), select(left, other.slope, h.slope),
-             select(left, other.to, h.to)};
-      }
+      const R d_a = to_sum * (slope + R(k_a)), d_b = to_rest * (slope + R(k_b)), d_t = to_transverse * (slope + R(k_t));
+      const R ua = u * d_a, ub = v * d_b, ut = w * d_t, square = u + v + w, f1 = ua + ub + ut, f2 = ua * d_a + ub * d_b + ut * d_t;
+      const R excess = sqrt(square) - R(1.0), by_f1 = R(1.0) / f1, ratio = square * by_f1;
+      const R step = excess * ratio * (R(1.0) + R(1.5) * excess * (f2 * ratio - f1) * by_f1), end = yield + slope * step;
+      r.increment += select(open, step, R(0.0));
+      r.sum = select(open, end * to_sum * reciprocal_near_one(d_a * step), r.sum);
+      r.rest = select(open, end * to_rest * reciprocal_near_one(d_b * step), r.rest);
+      r.transverse = select(open, end * to_transverse * reciprocal_near_one(d_t * step), r.transverse);
+      const R now = strain + r.increment, size = abs(excess);
+      r.static_yield = select(open, h.stress + h.slope * (now - h.from), r.static_yield);
+      const Mask left = open & (size > R(tolerance)) & ((now > h.to) | (now < h.from));
+      open = left | (open & (size > R(last_step)));
+      if (!R::any(open)) break;
+      follow(h, left, now);
     }
-    r.sum = yield * to_sum;
-    r.rest = yield * to_rest;
-    r.transverse = yield * to_transverse;
     return r;
+  }
+  /// 1/(1 + x) for small x, but for x^4.
+  template <class R>
+  [[gnu::always_inline]] static R reciprocal_near_one(const R& x) { return (R(1.0) - x) * (R(1.0) + x * x); }
+  /// Takes the piece that holds the strain `now` in the lanes that have left theirs.
+  template <class R, class Mask>
+  [[gnu::always_inline]] void follow(HardeningCurve::Piece<R>& h, const Mask& left, const R& now) const {
+    if (hardening.row_count == 1 || !R::any(left)) return;
+    const auto other = hardening.piece(now);
+    h = {select(left, other.from, h.from), select(left, other.stress, h.stress), select(left, other.slope, h.slope),
+         select(left, other.to, h.to)};
   }
 };
 
