@@ -27,8 +27,8 @@ class Registry {
   };
 
   /// Registers a vector of trivially copyable items. The vector must outlive the registry's use.
-  template <class T>
-  void add(ArrayInfo info, std::vector<T>& array) {
+  template <class T, class Allocator>
+  void add(ArrayInfo info, std::vector<T, Allocator>& array) {
     static_assert(std::is_trivially_copyable_v<T>);
     entries_.push_back({std::move(info), [&array] { return std::as_writable_bytes(std::span<T>(array)); }});
   }

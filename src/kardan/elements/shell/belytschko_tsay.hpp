@@ -31,100 +31,89 @@
 #include "kardan/base/vec3.hpp"
 #include "kardan/elements/shell/shell_kernel.hpp"
 #include "kardan/elements/tiles/tile_loop.hpp"
+#include "kardan/elements/tiles/tile_nodes.hpp"
 
 namespace kardan::KARDAN_ISA_NAMESPACE {
 
+/// Nodes 3 and 4 have the opposite of what nodes 1 and 2 have in b1, b2 and a.
 template <class R>
 struct ShellAxes {
   Vec3T<R> e1, e2, e3;
-  R x[4], y[4];  ///< coordinates of the nodes from node 1
-  R b1[4], b2[4];
+  R b1[2], b2[2];  ///< of nodes 1 and 2
+  R hx, hy;        ///< h.x, h.y
+  R a[2];          ///< hx b1 + hy b2: g = [1 - a1, -1 - a2, 1 + a1, -1 + a2]
   R area;
-  R gamma_z;     ///< g.z
+  R gamma_z;       ///< g.z
 };
 
 template <class R>
 KARDAN_INLINE ShellAxes<R> shell_axes(const Vec3T<R> (&p)[4]) {
   ShellAxes<R> s;
-  const Vec3T<R> normal = cross(p[2] - p[0], p[3] - p[1]);
-  const R length = sqrt(dot(normal, normal));
-  s.e3 = normal * (R(1.0) / length);
-  const Vec3T<R> side = p[1] - p[0], flat = side - s.e3 * dot(side, s.e3);
-  s.e1 = flat * (R(1.0) / sqrt(dot(flat, flat)));
+  const Vec3T<R> d1 = p[2] - p[0], d2 = p[3] - p[1], side = p[1] - p[0];
+  const Vec3T<R> normal = cross(d1, d2);
+  const R square = dot(normal, normal), along = dot(side, normal);
+  // The side made normal to the normal, times |normal|^2: so the two roots do not wait for one another.
+  const Vec3T<R> flat = side * square - normal * along;
+  const R f = inverse_sqrt(square), g = inverse_sqrt(dot(flat, flat));  // f = 1/(2A)
+  s.area = R(0.5) * square * f;
+  s.e3 = normal * f;
+  s.e1 = flat * g;
   s.e2 = cross(s.e3, s.e1);
-  s.area = R(0.5) * length;
-  R z[4];
-  for (int a = 0; a < 4; ++a) {
-    const Vec3T<R> d = p[a] - p[0];
-    s.x[a] = dot(d, s.e1);
-    s.y[a] = dot(d, s.e2);
-    z[a] = dot(d, s.e3);
-  }
-  s.gamma_z = z[0] - z[1] + z[2] - z[3];
-  const R f = R(1.0) / length;  // 1/(2A)
-  s.b1[0] = (s.y[1] - s.y[3]) * f;
-  s.b1[1] = (s.y[2] - s.y[0]) * f;
-  s.b1[2] = -s.b1[0];
-  s.b1[3] = -s.b1[1];
-  s.b2[0] = (s.x[3] - s.x[1]) * f;
-  s.b2[1] = (s.x[0] - s.x[2]) * f;
-  s.b2[2] = -s.b2[0];
-  s.b2[3] = -s.b2[1];
+  // The diagonals are normal to e3: z1 = z3, z2 = z4.
+  s.gamma_z = R(-2.0) * along * f;
+  s.b1[0] = -(dot(d2, s.e2) * f);
+  s.b1[1] = dot(d1, s.e2) * f;
+  s.b2[0] = dot(d2, s.e1) * f;
+  s.b2[1] = -(dot(d1, s.e1) * f);
+  const Vec3T<R> h = p[2] - p[3] - side;
+  s.hx = dot(h, s.e1);
+  s.hy = dot(h, s.e2);
+  for (int i = 0; i < 2; ++i) s.a[i] = s.hx * s.b1[i] + s.hy * s.b2[i];
   return s;
 }
 
-/// g of the hourglass modes.
-template <class R>
-KARDAN_INLINE void hourglass_shape(const ShellAxes<R>& s, R (&g)[4]) {
-  const R hx = s.x[0] - s.x[1] + s.x[2] - s.x[3], hy = s.y[0] - s.y[1] + s.y[2] - s.y[3];
-  for (int a = 0; a < 4; ++a) g[a] = R(a % 2 == 0 ? 1.0 : -1.0) - hx * s.b1[a] - hy * s.b2[a];
-}
-
-/// Nodal values of a block, gathered: [node][component][lane].
+/// What a block's elements report and give to their nodes.
 struct ShellBlock : BlockReport {
-  double x[4][3][block_lanes];
-  double v[4][6][block_lanes];
   double share[2][block_lanes];  ///< N of nodes 1, 2 and of nodes 3, 4
   double triangle[block_lanes];  ///< 1 or 0
-  double force[4][6][block_lanes];
+  NodalForces<4, 6> force;
 };
 
-/// Rates of the generalised strains of one element in its axes.
+/// Generalised strains of one element in its axes, increments over the step; rates of the hourglass modes.
 template <class R>
-struct ShellRates {
-  R xx{}, yy{}, xy{}, yz{}, zx{};     ///< at the surface of the nodes
-  R kxx{}, kyy{}, kxy{};              ///< per height
-  R q[5]{};                           ///< hourglass: vx, vy, vz, wx, wy
+struct ShellStrains {
+  R xx{}, yy{}, xy{}, yz{}, zx{};  ///< at the surface of the nodes
+  R kxx{}, kyy{}, kxy{};           ///< per height
+  R q[5]{};                        ///< hourglass rates: vx, vy, vz, wx, wy
 };
 
 template <class R>
-KARDAN_INLINE ShellRates<R> shell_rates(const ShellAxes<R>& s, const R (&g)[4], const Vec3T<R> (&v)[4], const Vec3T<R> (&w)[4],
-                                        const R (&n)[4]) {
-  ShellRates<R> r;
-  R tilt_x{}, tilt_y{};  // b2.vz and b1.vz
-  for (int a = 0; a < 4; ++a) {
-    const R vx = dot(v[a], s.e1), vy = dot(v[a], s.e2), vz = dot(v[a], s.e3);
-    const R wx = dot(w[a], s.e1), wy = dot(w[a], s.e2);
-    r.xx += s.b1[a] * vx;
-    r.yy += s.b2[a] * vy;
-    r.xy += s.b2[a] * vx + s.b1[a] * vy;
-    r.kxx += s.b1[a] * wy;
-    r.kyy -= s.b2[a] * wx;
-    r.kxy += s.b2[a] * wy - s.b1[a] * wx;
-    tilt_x += s.b2[a] * vz;
-    tilt_y += s.b1[a] * vz;
-    r.yz -= n[a] * wx;
-    r.zx += n[a] * wy;
-    r.q[0] += g[a] * vx;
-    r.q[1] += g[a] * vy;
-    r.q[2] += g[a] * vz;
-    r.q[3] += g[a] * wx;
-    r.q[4] += g[a] * wy;
-  }
-  r.yz += tilt_x;
-  r.zx += tilt_y;
-  r.q[0] += tilt_y * s.gamma_z;
-  r.q[1] += tilt_x * s.gamma_z;
+KARDAN_INLINE ShellStrains<R> shell_strains(const ShellAxes<R>& s, const Vec3T<R> (&v)[4], const Vec3T<R> (&w)[4], const R (&n)[2],
+                                            const R& dt) {
+  const auto local = [&s](const Vec3T<R>& u) { return Vec3T<R>{dot(u, s.e1), dot(u, s.e2), dot(u, s.e3)}; };
+  const auto turn = [&s](const Vec3T<R>& u) { return Vec3T<R>{dot(u, s.e1), dot(u, s.e2), R{}}; };
+  const auto b1 = [&s](const R& of_13, const R& of_24) { return s.b1[0] * of_13 + s.b1[1] * of_24; };
+  const auto b2 = [&s](const R& of_13, const R& of_24) { return s.b2[0] * of_13 + s.b2[1] * of_24; };
+  const Vec3T<R> v13 = local(v[0] - v[2]), v24 = local(v[1] - v[3]), w13 = turn(w[0] - w[2]), w24 = turn(w[1] - w[3]);
+  const R b1vx = b1(v13.x, v24.x), b1vy = b1(v13.y, v24.y), b1vz = b1(v13.z, v24.z);
+  const R b2vx = b2(v13.x, v24.x), b2vy = b2(v13.y, v24.y), b2vz = b2(v13.z, v24.z);
+  const R b1wx = b1(w13.x, w24.x), b1wy = b1(w13.y, w24.y), b2wx = b2(w13.x, w24.x), b2wy = b2(w13.y, w24.y);
+  const Vec3T<R> mean = turn((w[0] + w[1]) * n[0] + (w[2] + w[3]) * n[1]);
+  const Vec3T<R> hv = local(v[0] - v[1] + (v[2] - v[3])), hw = turn(w[0] - w[1] + (w[2] - w[3]));
+  ShellStrains<R> r;
+  r.xx = b1vx * dt;
+  r.yy = b2vy * dt;
+  r.xy = (b2vx + b1vy) * dt;
+  r.yz = (b2vz - mean.x) * dt;
+  r.zx = (b1vz + mean.y) * dt;
+  r.kxx = b1wy * dt;
+  r.kyy = -b2wx * dt;
+  r.kxy = (b2wy - b1wx) * dt;
+  r.q[0] = hv.x - s.hx * b1vx - s.hy * b2vx + b1vz * s.gamma_z;
+  r.q[1] = hv.y - s.hx * b1vy - s.hy * b2vy + b2vz * s.gamma_z;
+  r.q[2] = hv.z - s.hx * b1vz - s.hy * b2vz;
+  r.q[3] = hw.x - s.hx * b1wx - s.hy * b2wx;
+  r.q[4] = hw.y - s.hx * b1wy - s.hy * b2wy;
   return r;
 }
 
@@ -138,12 +127,11 @@ struct ShellResultants {
 };
 
 template <class R, class Law>
-KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, const Law& law, const ShellRates<R>& r,
+KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, const Law& law, const ShellStrains<R>& r,
                                                    const StepTime& step, R half, double* history) {
-  const R dt(step.dt);
   ShellResultants<R> t;
   R failed{};
-  const R spin = R(-0.5) * r.xy * dt;  // the axes follow a line of the material along x, which turns by half of the shear more than it
+  const R spin = R(-0.5) * r.xy;  // the axes follow a line of the material along x, which turns by half of the shear more than it
   for (int i = 0; i < p.points; ++i) {
     double* h = history + static_cast<std::size_t>(i) * shell_point_values(law.history()) * block_lanes;
     ShellPoint<R> point;
@@ -152,7 +140,7 @@ KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, con
          R::load(h + 4 * block_lanes)};
     const PlaneStress<R> old = s;
     const R z = half * R(p.zeta[i]), w = half * R(p.weight[i]);
-    const PlaneStress<R>& d = point.strain = {(r.xx + z * r.kxx) * dt, (r.yy + z * r.kyy) * dt, (r.xy + z * r.kxy) * dt, r.yz * dt, r.zx * dt};
+    const PlaneStress<R>& d = point.strain = {r.xx + z * r.kxx, r.yy + z * r.kyy, r.xy + z * r.kxy, r.yz, r.zx};
     point.spin = spin;
     law.update(point, step, h + 5 * block_lanes);
     t.stiffening = max(t.stiffening, point.stiffening);
@@ -180,31 +168,30 @@ KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, con
 
 /// Hourglass forces at t_n; returns their work over the step.
 template <class R>
-KARDAN_INLINE R hourglass_forces(const ShellProperties& p, const ShellAxes<R>& s, const ShellRates<R>& r, R dt, R thickness,
+KARDAN_INLINE R hourglass_forces(const ShellProperties& p, const ShellAxes<R>& s, const ShellStrains<R>& r, R dt, R thickness,
                                  double* history, R (&force)[5]) {
   const R t3 = thickness * thickness * thickness;
   R factor[3];
   if (p.stiffness_hourglass) {
-    R b{};
-    for (int a = 0; a < 4; ++a) b += s.b1[a] * s.b1[a] + s.b2[a] * s.b2[a];
+    const R half_b = s.b1[0] * s.b1[0] + s.b1[1] * s.b1[1] + s.b2[0] * s.b2[0] + s.b2[1] * s.b2[1], b = half_b + half_b;
     factor[0] = R(p.hourglass_membrane) * thickness * s.area * b * dt;
     factor[1] = R(p.hourglass_warping) * t3 * b * dt;
     factor[2] = R(p.hourglass_bending) * t3 * s.area * b * dt;
   } else {
-    const R root = sqrt(s.area);
-    factor[0] = R(p.hourglass_membrane) * thickness * root;
-    factor[1] = R(p.hourglass_warping) * t3 / root;
-    factor[2] = R(p.hourglass_bending) * t3 * root;
+    const R root = inverse_sqrt(s.area), side = s.area * root;
+    factor[0] = R(p.hourglass_membrane) * thickness * side;
+    factor[1] = R(p.hourglass_warping) * t3 * root;
+    factor[2] = R(p.hourglass_bending) * t3 * side;
   }
-  R work{};
+  R power{};
   for (int k = 0; k < 5; ++k) {
     const R own = factor[k < 2 ? 0 : (k == 2 ? 1 : 2)] * r.q[k];
     const R old = R::load(history + k * block_lanes);
     force[k] = p.stiffness_hourglass ? old + own : own;
-    work += R(0.5) * (old + force[k]) * r.q[k] * dt;
+    power += (old + force[k]) * r.q[k];
     force[k].store(history + k * block_lanes);
   }
-  return work;
+  return R(0.5) * power * dt;
 }
 
 template <class R>
@@ -219,87 +206,71 @@ KARDAN_INLINE R stable_step(const ShellProperties& p, const ShellAxes<R>& s, con
     const Vec3T<R> d1 = x[2] - x[0], d2 = x[3] - x[1];
     longest = max(dot(d1, d1), dot(d2, d2));
   }
-  return (R(1.0) + triangle) * s.area / (sqrt(longest * stiffening) * R(p.wave_speed));
+  return (R(1.0) + triangle) * s.area * inverse_sqrt(longest * stiffening) * R(1.0 / p.wave_speed);
+}
+
+/// Forces and moments on the nodes, global components. Nodes 1 and 3, and 2 and 4, have the same up to signs:
+///   f1 = A + H, f3 = -A + H, f2 = B - H, f4 = -B - H, likewise the moments but for the transverse shears N A (-q_y, q_x).
+template <class R>
+KARDAN_INLINE void nodal_forces(const ShellAxes<R>& s, const ShellResultants<R>& t, const R (&hg)[5], const R (&n)[2],
+                                NodalForces<4, 6>& force, std::size_t first) {
+  const auto global = [&s](const R& x, const R& y, const R& z) { return s.e1 * x + s.e2 * y + s.e3 * z; };
+  const auto turned = [&s](const R& x, const R& y) { return s.e1 * x + s.e2 * y; };
+  Vec3T<R> f[2], m[2];
+  for (int i = 0; i < 2; ++i) {
+    const R b1 = s.area * s.b1[i], b2 = s.area * s.b2[i], a = s.a[i];
+    f[i] = global(b1 * t.fxx + b2 * t.fxy - a * hg[0], b2 * t.fyy + b1 * t.fxy - a * hg[1],
+                  b1 * t.qx + b2 * t.qy + (s.b1[i] * hg[0] + s.b2[i] * hg[1]) * s.gamma_z - a * hg[2]);
+    m[i] = turned(-(b2 * t.myy + b1 * t.mxy) - a * hg[3], b1 * t.mxx + b2 * t.mxy - a * hg[4]);
+  }
+  const Vec3T<R> hf = global(hg[0], hg[1], hg[2]), hm = turned(hg[3], hg[4]), q = turned(-(s.area * t.qy), s.area * t.qx);
+  const Vec3T<R> q12 = q * n[0], q34 = q * n[1];
+  force.set(0, first, hf + f[0], q12 + hm + m[0]);
+  force.set(1, first, f[1] - hf, q12 - hm + m[1]);
+  force.set(2, first, hf - f[0], q34 + hm - m[0]);
+  force.set(3, first, -f[1] - hf, q34 - hm - m[1]);
 }
 
 /// Lanes [first, first + R::lanes) of a block.
 template <class R, class Law>
-KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, const StepTime& step, ShellBlock& block, double* history,
-                              std::size_t first) {
-  const R dt(step.dt), half_dt(0.5 * step.dt), zero(0.0);
-  Vec3T<R> x[4], v[4], w[4], middle[4];
-  for (int a = 0; a < 4; ++a) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      x[a][c] = R::load(block.x[a][c] + first);
-      v[a][c] = R::load(block.v[a][c] + first);
-      w[a][c] = R::load(block.v[a][c + 3] + first);
-    }
-    middle[a] = x[a] - v[a] * half_dt;
-  }
-  const R n12 = R::load(block.share[0] + first), n34 = R::load(block.share[1] + first);
-  const R n[4] = {n12, n12, n34, n34};
+KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, const TileWork& work, const std::uint16_t* connectivity,
+                              ShellBlock& block, double* history, std::size_t first) {
+  const R dt(work.step.dt), half_dt(0.5 * work.step.dt), zero(0.0);
+  const R n[2] = {R::load(block.share[0] + first), R::load(block.share[1] + first)};
   history += first;
   double* kept = history + static_cast<std::size_t>(p.points) * shell_point_values(law.history()) * block_lanes;
   const R thickness = R::load(kept + 5 * block_lanes);
-
-  R g[4], hg[5], active;
+  const std::uint16_t* const index = connectivity + first;
+  const auto gathered = [&](std::size_t a, std::size_t vector) {
+    return gather_vectors<node_stride(6)>(work.node + 4 * vector, index + a * block_lanes);
+  };
+  const Vec3T<R> x[4] = {gathered(0, 0), gathered(1, 0), gathered(2, 0), gathered(3, 0)};
+  const Vec3T<R> v[4] = {gathered(0, 1), gathered(1, 1), gathered(2, 1), gathered(3, 1)};
+  const Vec3T<R> middle[4] = {x[0] - v[0] * half_dt, x[1] - v[1] * half_dt, x[2] - v[2] * half_dt, x[3] - v[3] * half_dt};
+  const ShellAxes<R> before = shell_axes(middle), now = shell_axes(x);  // side by side: either is a long chain of operations
+  R hg[5];
   ShellResultants<R> t;
   {
-    const ShellAxes<R> s = shell_axes(middle);
-    hourglass_shape(s, g);
-    const ShellRates<R> rates = shell_rates(s, g, v, w, n);
-    t = through_thickness(p, law, rates, step, R(0.5) * thickness, history);
-    active = R::load(block.alive + first);
-    select(active > zero, t.work * s.area, zero).store(block.internal + first);
-    const R hourglass_work = hourglass_forces(p, s, rates, dt, thickness, kept, hg);
+    const Vec3T<R> w[4] = {gathered(0, 2), gathered(1, 2), gathered(2, 2), gathered(3, 2)};
+    const ShellStrains<R> strains = shell_strains(before, v, w, n, dt);
+    t = through_thickness(p, law, strains, work.step, R(0.5) * thickness, history);
+    const R active = R::load(block.alive + first);
+    select(active > zero, t.work * before.area, zero).store(block.internal + first);
+    const R hourglass_work = hourglass_forces(p, before, strains, dt, thickness, kept, hg);
     select(active > zero, hourglass_work, zero).store(block.hourglass + first);
+    (active * t.intact).store(block.alive + first);
   }
-
-  active = active * t.intact;
-  active.store(block.alive + first);
-  const auto alive = active > zero;
-  const ShellAxes<R> s = shell_axes(x);
-  hourglass_shape(s, g);
-  stable_step(p, s, x, R::load(block.triangle + first), t.stiffening).store(block.time_step + first);
-  for (int a = 0; a < 4; ++a) {
-    const R fx = s.area * (s.b1[a] * t.fxx + s.b2[a] * t.fxy) + g[a] * hg[0];
-    const R fy = s.area * (s.b2[a] * t.fyy + s.b1[a] * t.fxy) + g[a] * hg[1];
-    const R fz = s.area * (s.b1[a] * t.qx + s.b2[a] * t.qy) + g[a] * hg[2] + (s.b1[a] * hg[0] + s.b2[a] * hg[1]) * s.gamma_z;
-    const R mx = g[a] * hg[3] - s.area * (s.b2[a] * t.myy + s.b1[a] * t.mxy + n[a] * t.qy);
-    const R my = g[a] * hg[4] + s.area * (s.b1[a] * t.mxx + s.b2[a] * t.mxy + n[a] * t.qx);
-    const Vec3T<R> f = s.e1 * fx + s.e2 * fy + s.e3 * fz, m = s.e1 * mx + s.e2 * my;
-    for (std::size_t c = 0; c < 3; ++c) {
-      select(alive, f[c], zero).store(block.force[a][c] + first);
-      select(alive, m[c], zero).store(block.force[a][c + 3] + first);
-    }
-  }
+  stable_step(p, now, x, R::load(block.triangle + first), t.stiffening).store(block.time_step + first);
+  nodal_forces(now, t, hg, n, block.force, first);
 }
 
-KARDAN_INLINE void gather(const TileWork& work, const std::uint16_t* connectivity, ShellBlock& block) {
-  for (std::size_t a = 0; a < 4; ++a) {
-    for (std::size_t l = 0; l < block_lanes; ++l) {
-      const double* node = work.node + node_stride(6) * connectivity[a * block_lanes + l];
-      for (std::size_t c = 0; c < 3; ++c) {
-        block.x[a][c][l] = node[c];
-        block.v[a][c][l] = node[c + 4];
-        block.v[a][c + 3][l] = node[c + 8];
-      }
-    }
-  }
+/// What tells triangles from quadrilaterals.
+KARDAN_INLINE void find_triangles(const std::uint16_t* connectivity, ShellBlock& block) {
   for (std::size_t l = 0; l < block_lanes; ++l) {
     const bool triangle = connectivity[2 * block_lanes + l] == connectivity[3 * block_lanes + l];
     block.triangle[l] = triangle ? 1.0 : 0.0;
     block.share[0][l] = triangle ? 1.0 / 3.0 : 0.25;
     block.share[1][l] = triangle ? 1.0 / 6.0 : 0.25;
-  }
-}
-
-KARDAN_INLINE void scatter(const TileWork& work, const std::uint16_t* connectivity, std::size_t lanes, const ShellBlock& block) {
-  for (std::size_t a = 0; a < 4; ++a) {
-    for (std::size_t l = 0; l < lanes; ++l) {
-      double* f = work.force + 6 * connectivity[a * block_lanes + l];
-      for (std::size_t c = 0; c < 6; ++c) f[c] -= block.force[a][c][l];
-    }
   }
 }
 
@@ -310,12 +281,12 @@ void shell_tile(TileWork& work) {
   const Law law(p.law);
   ShellBlock block;
   for_each_block<4>(work, 6, shell_history_size(p.points, law.history()), block,
-                    [&](const std::uint16_t* connectivity, std::size_t lanes, double* history) {
-                      gather(work, connectivity, block);
+                    [&](const std::uint16_t* connectivity, std::size_t, double* history) {
+                      find_triangles(connectivity, block);
                       for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) {
-                        shell_pack<Pack>(p, law, work.step, block, history, l);
+                        shell_pack<Pack>(p, law, work, connectivity, block, history, l);
                       }
-                      scatter(work, connectivity, lanes, block);
+                      block.force.scatter(connectivity, block.alive, work.force);
                     });
 }
 

@@ -32,6 +32,7 @@
 #include "kardan/base/vec3.hpp"
 #include "kardan/elements/solid/solid_kernel.hpp"
 #include "kardan/elements/tiles/tile_loop.hpp"
+#include "kardan/elements/tiles/tile_nodes.hpp"
 
 namespace kardan::KARDAN_ISA_NAMESPACE {
 
@@ -153,12 +154,10 @@ KARDAN_INLINE R characteristic_length(const Vec3T<R> (&x)[8], const R& volume) {
   return volume / (R(0.5) * sqrt(largest));
 }
 
-/// Nodal values of a block, gathered: [node][component][lane].
+/// What a block's elements report and give to their nodes.
 struct SolidBlock : BlockReport {
-  double x[8][3][block_lanes];
-  double v[8][3][block_lanes];
   double tetrahedron[block_lanes];  ///< 3 of a tetrahedron, whose length is its altitude 3 V/A; else 1
-  double force[8][3][block_lanes];
+  NodalForces<8, 3> force;
 };
 
 /// Forces of the hourglass modes at t_n on the geometry of the middle of the step; returns their work over the step.
@@ -195,17 +194,16 @@ KARDAN_INLINE R hourglass_forces(const SolidProperties& p, const Modes<R>& x, co
 
 /// Lanes [first, first + R::lanes) of a block.
 template <class R, class Law>
-KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, const StepTime& step, SolidBlock& block, double* history,
-                              std::size_t first) {
+KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, const TileWork& work, const std::uint16_t* connectivity,
+                              SolidBlock& block, double* history, std::size_t first) {
   namespace kept = solid_history;
-  const R dt(step.dt), zero(0.0);
+  const R dt(work.step.dt), zero(0.0);
   history += first;
   Vec3T<R> corner[8], rate[8];
-  for (int a = 0; a < 8; ++a) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      corner[a][c] = R::load(block.x[a][c] + first);
-      rate[a][c] = R::load(block.v[a][c] + first);
-    }
+  for (std::size_t a = 0; a < 8; ++a) {
+    const std::uint16_t* index = connectivity + a * block_lanes + first;
+    corner[a] = gather_vectors<node_stride(3)>(work.node, index);
+    rate[a] = gather_vectors<node_stride(3)>(work.node + 4, index);
   }
   const Modes<R> x = to_modes(corner), v = to_modes(rate);
   const MeanGradient<R> now = mean_gradient(x);
@@ -218,7 +216,7 @@ KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, const St
   const auto alive_before = R::load(block.alive + first) > zero;
   {
     Modes<R> middle;
-    const R half_dt(0.5 * step.dt);
+    const R half_dt(0.5 * work.step.dt);
     for (int k = 0; k < 7; ++k) middle.a[k] = x.a[k] - v.a[k] * half_dt;
     const MeanGradient<R> g = mean_gradient(middle);
     const Mat3T<R> l = sum_outer<6>(v.a, g.b, R(8.0) / g.volume);
@@ -248,18 +246,18 @@ KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, const St
     point.viscosity = half * both;
     point.modulus = R(p.longitudinal);
     stress = turned(q, load_tensor<R>(h));
-    R work = contraction(stress, d);
+    R energy = contraction(stress, d);
     turn_tensors(q, law.tensors(), own);
-    law.update(point, step, own);
+    law.update(point, work.step, own);
     turn_tensors(q, law.tensors(), own);
-    work += contraction(stress, d);
+    energy += contraction(stress, d);
     stress = turned(q, stress);
     store_tensor(stress, h);
-    work -= both * divergence * dt;
+    energy -= both * divergence * dt;
     stress.xx -= pressure;
     stress.yy -= pressure;
     stress.zz -= pressure;
-    select(alive_before, R(0.5) * work * g.volume, zero).store(block.internal + first);
+    select(alive_before, R(0.5) * energy * g.volume, zero).store(block.internal + first);
     const R hourglass_work = hourglass_forces(p, middle, v, g, l, q, dt, size * size, history + kept::hourglass * block_lanes, hourglass);
     select(alive_before, hourglass_work, zero).store(block.hourglass + first);
   }
@@ -275,36 +273,19 @@ KARDAN_INLINE void solid_pack(const SolidProperties& p, const Law& law, const St
   to_nodes(f, corner);
   const R intact = select(alive_before & (point.failed < R(0.5)), R(1.0), zero);
   intact.store(block.alive + first);
-  for (int a = 0; a < 8; ++a) {
-    for (std::size_t c = 0; c < 3; ++c) select(intact > zero, corner[a][c], zero).store(block.force[a][c] + first);
-  }
+  for (std::size_t a = 0; a < 8; ++a) block.force.set(a, first, corner[a]);
 
   const R c = sqrt(point.modulus * R(1.0 / p.density)), damping = select(divergence < zero, R(p.q2) * c - R(p.q1) * length * divergence, zero);
   const R stable = length / (damping + sqrt(damping * damping + c * c));
   select(now.volume > zero, stable, -R(1.0)).store(block.time_step + first);
 }
 
-KARDAN_INLINE void gather(const TileWork& work, const std::uint16_t* connectivity, SolidBlock& block) {
-  for (std::size_t a = 0; a < 8; ++a) {
-    for (std::size_t l = 0; l < block_lanes; ++l) {
-      const double* node = work.node + node_stride(3) * connectivity[a * block_lanes + l];
-      for (std::size_t c = 0; c < 3; ++c) block.x[a][c][l] = node[c];
-      for (std::size_t c = 0; c < 3; ++c) block.v[a][c][l] = node[c + 4];
-    }
-  }
+/// What tells tetrahedra from the rest.
+KARDAN_INLINE void find_tetrahedra(const std::uint16_t* connectivity, SolidBlock& block) {
   for (std::size_t l = 0; l < block_lanes; ++l) {
     const bool tetrahedron = connectivity[2 * block_lanes + l] == connectivity[3 * block_lanes + l] &&
                              connectivity[4 * block_lanes + l] == connectivity[6 * block_lanes + l];
     block.tetrahedron[l] = tetrahedron ? 3.0 : 1.0;
-  }
-}
-
-KARDAN_INLINE void scatter(const TileWork& work, const std::uint16_t* connectivity, std::size_t lanes, const SolidBlock& block) {
-  for (std::size_t a = 0; a < 8; ++a) {
-    for (std::size_t l = 0; l < lanes; ++l) {
-      double* f = work.force + 3 * connectivity[a * block_lanes + l];
-      for (std::size_t c = 0; c < 3; ++c) f[c] -= block.force[a][c][l];
-    }
   }
 }
 
@@ -315,12 +296,12 @@ void solid_tile(TileWork& work) {
   const Law law(p.law);
   SolidBlock block;
   for_each_block<8>(work, 3, solid_history::law + law.history(), block,
-                    [&](const std::uint16_t* connectivity, std::size_t lanes, double* history) {
-                      gather(work, connectivity, block);
+                    [&](const std::uint16_t* connectivity, std::size_t, double* history) {
+                      find_tetrahedra(connectivity, block);
                       for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) {
-                        solid_pack<Pack>(p, law, work.step, block, history, l);
+                        solid_pack<Pack>(p, law, work, connectivity, block, history, l);
                       }
-                      scatter(work, connectivity, lanes, block);
+                      block.force.scatter(connectivity, block.alive, work.force);
                     });
 }
 

@@ -121,7 +121,7 @@ std::array<Vec3, 2> TileElements::force_on(Index element, std::size_t a) const {
   return {vector(0), c == 6 ? vector(3) : Vec3{}};
 }
 
-void TileElements::run_tile(std::size_t t, const State& state, std::vector<double>& scratch) {
+void TileElements::run_tile(std::size_t t, const State& state, AlignedVector<double>& scratch) {
   const Tile& tile = mesh_.tiles[t];
   const bool turns = input_.components == 6;
   const std::size_t stride = node_stride(input_.components);

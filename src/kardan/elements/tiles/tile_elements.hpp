@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "kardan/base/aligned.hpp"
 #include "kardan/elements/governing.hpp"
 #include "kardan/elements/tiles/tile_work.hpp"
 #include "kardan/materials/law.hpp"
@@ -58,8 +59,8 @@ class TileElements {
     for (std::size_t t = 0; t < mesh_.tiles.size(); ++t) {
       const Tile& tile = mesh_.tiles[t];
       const Index* element = mesh_.element.data() + tile.first_block * block_lanes;
-      std::vector<double> factors(tile.elements);
-      for (std::size_t i = 0; i < tile.elements; ++i) factors[i] = factor(element[i], tile.part);
+      AlignedVector<double> factors(tile.blocks * block_lanes);
+      for (std::size_t i = 0; i < factors.size(); ++i) factors[i] = factor(element[i], tile.part);
       if (std::any_of(factors.begin(), factors.end(), [](double f) { return f != 1; })) step_factor_[t] = std::move(factors);
     }
   }
@@ -127,22 +128,22 @@ class TileElements {
     return history_.data() + history_begin_[tile] + element / block_lanes * size * block_lanes + element % block_lanes;
   }
   Place find(Index element) const;
-  void run_tile(std::size_t tile, const State& state, std::vector<double>& scratch);
+  void run_tile(std::size_t tile, const State& state, AlignedVector<double>& scratch);
   [[noreturn]] void report_broken(const Model& model, const State& state, Index element, const std::string& fault) const;
 
   TileElementsInput input_;
   TileMesh mesh_;
   SlotSum slots_;
   std::vector<PartKernel> kernels_;           ///< by part of the model
-  std::vector<double> history_;               ///< blocks of all tiles
+  AlignedVector<double> history_;              ///< blocks of all tiles
   std::vector<std::size_t> history_begin_;    ///< by tile
-  std::vector<std::vector<double>> step_factor_;  ///< by tile and element; empty: 1
-  std::vector<double> alive_, energy_;        ///< [block][lane]; empty where nothing can be deleted
-  std::vector<double> watched_force_;         ///< TileWork::element_force of the watched tiles
+  std::vector<AlignedVector<double>> step_factor_;  ///< by tile and [block][lane]; empty: 1
+  AlignedVector<double> alive_, energy_;       ///< [block][lane]; empty where nothing can be deleted
+  AlignedVector<double> watched_force_;        ///< TileWork::element_force of the watched tiles
   std::vector<std::size_t> watched_begin_;    ///< by tile, into watched_force_; npos = nobody asks; empty = of no tile
   std::vector<double> internal_, hourglass_;  ///< energies, by tile
   std::vector<Outcome> outcome_;              ///< by tile
-  std::vector<std::vector<double>> scratch_;  ///< by thread
+  std::vector<AlignedVector<double>> scratch_; ///< by thread
   std::vector<Index> place_;                  ///< by element of the model: block * lanes + lane, or none
   std::vector<Index> tile_of_block_;
   Governing governing_;

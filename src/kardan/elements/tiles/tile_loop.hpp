@@ -2,7 +2,9 @@
 // instruction set each.
 #pragma once
 
+#include "kardan/base/aligned.hpp"
 #include "kardan/base/simd_math.hpp"
+#include "kardan/elements/tiles/tile_nodes.hpp"
 #include "kardan/elements/tiles/tile_work.hpp"
 
 namespace kardan::KARDAN_ISA_NAMESPACE {
@@ -38,55 +40,106 @@ struct Called {
 };
 
 /// What every block reports of its elements; a formulation's block derives from it.
-struct BlockReport {
+struct alignas(cache_line) BlockReport {
   double internal[block_lanes], hourglass[block_lanes], time_step[block_lanes];
   double alive[block_lanes];  ///< 1 or 0: deleted, or an empty lane of the last block
 };
 
+/// What the blocks of a tile report, summed and searched lane by lane.
+class TileReport {
+ public:
+  TileReport() {
+    for (Pack& step : step_) step = Pack(__builtin_inf());
+  }
+  /// Takes the report of block b in, and gives to the arrays of the tile what they want to know of every element.
+  KARDAN_INLINE void add(TileWork& work, std::size_t b, const BlockReport& block) {
+    const Pack zero(0.0), infinity(__builtin_inf());
+    for (std::size_t i = 0; i < packs; ++i) {
+      const std::size_t l = i * Pack::lanes, place = b * block_lanes + l;
+      const Pack own = Pack::load(block.internal + l);
+      Pack alive = Pack::load(block.alive + l), step = Pack::load(block.time_step + l);
+      if (work.smallest_step > 0) alive = select(step < Pack(work.smallest_step), zero, alive);
+      internal_[i] += own;
+      hourglass_[i] += Pack::load(block.hourglass + l);
+      if (work.energy) (Pack::load(work.energy + place) + own).store(work.energy + place);
+      if (work.alive) alive.store(work.alive + place);
+      if (work.step_factor) step *= Pack::load(work.step_factor + place);
+      if (Pack::any((alive > zero) & ~((step > zero) & (abs(own) < infinity)))) find_broken(work, b, block);
+      step = select(alive > zero, step, infinity);
+      if (work.steps) step.store(work.steps + place);
+      const auto smaller = step < step_[i];
+      step_[i] = select(smaller, step, step_[i]);
+      block_[i] = select(smaller, Pack(static_cast<double>(b)), block_[i]);
+    }
+  }
+  KARDAN_INLINE void finish(TileWork& work) const {
+    double internal[block_lanes], hourglass[block_lanes], step[block_lanes], block[block_lanes];
+    for (std::size_t i = 0; i < packs; ++i) {
+      internal_[i].store(internal + i * Pack::lanes);
+      hourglass_[i].store(hourglass + i * Pack::lanes);
+      step_[i].store(step + i * Pack::lanes);
+      block_[i].store(block + i * Pack::lanes);
+    }
+    work.internal_increment = work.hourglass_increment = 0;
+    work.time_step = __builtin_inf();
+    work.governing = 0;
+    for (std::size_t l = 0; l < block_lanes; ++l) {
+      work.internal_increment += internal[l];
+      work.hourglass_increment += hourglass[l];
+      const std::size_t element = static_cast<std::size_t>(block[l]) * block_lanes + l;
+      if (step[l] > work.time_step || (step[l] == work.time_step && element >= work.governing)) continue;
+      work.time_step = step[l];
+      work.governing = element;
+    }
+  }
+
+ private:
+  static constexpr std::size_t packs = block_lanes / Pack::lanes;
+
+  [[gnu::noinline]] static void find_broken(TileWork& work, std::size_t b, const BlockReport& block) {
+    for (std::size_t l = 0; l < block_lanes; ++l) {
+      if (!(block.alive[l] > 0)) continue;
+      if (!(block.time_step[l] > 0) || !(block.internal[l] - block.internal[l] == 0)) work.broken = b * block_lanes + l + 1;
+    }
+  }
+
+  Pack internal_[packs], hourglass_[packs];
+  Pack step_[packs], block_[packs];
+};
+
+/// The forces of a block's elements as TileWork::element_force has them, zero of those that are deleted.
+template <std::size_t Nodes, std::size_t Components>
+KARDAN_INLINE void copy_forces(const NodalForces<Nodes, Components>& force, const double* alive, double* to) {
+  for (std::size_t a = 0; a < Nodes; ++a) {
+    for (std::size_t c = 0; c < Components; ++c) {
+      for (std::size_t l = 0; l < block_lanes; ++l) {
+        to[(a * Components + c) * block_lanes + l] = alive[l] > 0 ? force.value[a][l][c] : 0.0;
+      }
+    }
+  }
+}
+template <std::size_t Nodes, std::size_t Components>
+KARDAN_INLINE void copy_forces(const double (&force)[Nodes][Components][block_lanes], const double*, double* to) {
+  std::memcpy(to, force, sizeof force);
+}
+
 /// Runs `element_block(connectivity, lanes, history)` over the blocks of a tile and gathers what the block reports. `block` is the
-/// formulation's work space, which element_block fills.
+/// formulation's work space, which element_block fills; alive is set before, also 0 in the empty lanes of the last block.
 template <std::size_t NodesPerElement, class Block, class F>
 KARDAN_INLINE void for_each_block(TileWork& work, std::size_t components, std::size_t history_size, Block& block, F&& element_block) {
   std::memset(work.force, 0, work.nodes * components * sizeof(double));
-  double internal[block_lanes] = {}, hourglass[block_lanes] = {};
-  work.time_step = __builtin_inf();
-  work.governing = work.broken = 0;
+  work.broken = 0;
+  TileReport report;
   for (std::size_t first = 0, b = 0; first < work.elements; first += block_lanes, ++b) {
     const std::size_t lanes = work.elements - first < block_lanes ? work.elements - first : block_lanes;
-    double* const alive = work.alive ? work.alive + b * block_lanes : nullptr;
-    for (std::size_t l = 0; l < block_lanes; ++l) block.alive[l] = l >= lanes ? 0.0 : alive ? alive[l] : 1.0;
+    for (std::size_t l = 0; l < block_lanes; ++l) block.alive[l] = l >= lanes ? 0.0 : work.alive ? work.alive[first + l] : 1.0;
     element_block(work.connectivity + b * NodesPerElement * block_lanes, lanes, work.history + b * history_size * block_lanes);
-    for (std::size_t l = 0; l < block_lanes; ++l) {
-      internal[l] += block.internal[l];
-      hourglass[l] += block.hourglass[l];
-    }
     if (work.element_force) {
-      static_assert(sizeof(block.force) == NodesPerElement * sizeof(block.force[0]));
-      std::memcpy(work.element_force + b * sizeof(block.force) / sizeof(double), block.force, sizeof(block.force));
+      copy_forces(block.force, block.alive, work.element_force + b * NodesPerElement * components * block_lanes);
     }
-    if (work.energy) {
-      for (std::size_t l = 0; l < lanes; ++l) work.energy[b * block_lanes + l] += block.internal[l];
-    }
-    for (std::size_t l = 0; l < lanes; ++l) {
-      if (alive) {
-        const bool too_small = work.smallest_step > 0 && block.time_step[l] < work.smallest_step;
-        alive[l] = too_small ? 0.0 : block.alive[l];
-        if (!(alive[l] > 0)) block.time_step[l] = __builtin_inf();
-      }
-      const double step = work.step_factor ? work.step_factor[first + l] * block.time_step[l] : block.time_step[l];
-      if (work.steps) work.steps[b * block_lanes + l] = step;
-      if (!(step > 0) || !(block.internal[l] - block.internal[l] == 0)) work.broken = first + l + 1;
-      if (step < work.time_step) {
-        work.time_step = step;
-        work.governing = first + l;
-      }
-    }
+    report.add(work, b, block);
   }
-  work.internal_increment = work.hourglass_increment = 0;
-  for (std::size_t l = 0; l < block_lanes; ++l) {
-    work.internal_increment += internal[l];
-    work.hourglass_increment += hourglass[l];
-  }
+  report.finish(work);
 }
 
 }  // namespace kardan::KARDAN_ISA_NAMESPACE

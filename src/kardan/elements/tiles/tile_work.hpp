@@ -26,7 +26,7 @@ struct TileWork {
   double smallest_step = 0;                     ///< elements whose stable step falls below it are deleted, where elements can be
   double* alive = nullptr;                      ///< [block][lane] in and out: 1, or 0 if deleted; null where nothing can be deleted
   double* energy = nullptr;                     ///< [block][lane] internal energy of each element, added to; may be null
-  const double* step_factor = nullptr;          ///< [element] on the stable step; null: 1
+  const double* step_factor = nullptr;          ///< [block][lane] on the stable step; null: 1
   double* steps = nullptr;                      ///< [block][lane] out: stable step of each element; may be null
   double* element_force = nullptr;              ///< [block][node of the element][component][lane] out: forces that the nodes exert on each
                                                 ///< element; null where nobody asks

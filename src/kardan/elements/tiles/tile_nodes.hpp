@@ -1,0 +1,131 @@
+// How a pack takes vectors from the nodes of a tile, and how forces go back to them. Included by translation units that are compiled
+// for one instruction set each.
+//
+// A node's vectors lie in fours, so that one is a single load; lanes and components then change places in registers. Forces are turned
+// round likewise and given to the nodes element by element: nodes are shared by neighbouring lanes.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "kardan/base/simd.hpp"
+#include "kardan/base/vec3.hpp"
+
+namespace kardan::KARDAN_ISA_NAMESPACE {
+
+typedef double Four __attribute__((vector_size(4 * sizeof(double))));
+typedef double Two __attribute__((vector_size(2 * sizeof(double))));
+
+template <class V>
+KARDAN_INLINE V load_as(const double* p) {
+  V v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+template <class V>
+KARDAN_INLINE void store_as(const V& v, double* p) {
+  std::memcpy(p, &v, sizeof v);
+}
+
+/// The vectors at base + stride * index[lane] of the pack's lanes; a fourth value behind each is read and left.
+template <std::size_t Stride>
+KARDAN_INLINE Vec3T<Pack> gather_vectors(const double* base, const std::uint16_t* index) {
+  const auto at = [&](std::size_t lane) { return load_as<Four>(base + Stride * index[lane]); };
+  Vec3T<Pack> r;
+#if defined(__AVX512F__)
+  const auto pair = [&](std::size_t lane) {
+    return Pack::Vector(__builtin_shufflevector(at(lane), at(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7));
+  };
+  const Pack::Vector p0 = pair(0), p1 = pair(1), p2 = pair(2), p3 = pair(3);
+  const Pack::Vector xz01 = __builtin_shufflevector(p0, p1, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Pack::Vector xz23 = __builtin_shufflevector(p2, p3, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Pack::Vector y01 = __builtin_shufflevector(p0, p1, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Pack::Vector y23 = __builtin_shufflevector(p2, p3, 1, 9, 3, 11, 5, 13, 7, 15);
+  r.x.v = __builtin_shufflevector(xz01, xz23, 0, 1, 8, 9, 4, 5, 12, 13);
+  r.y.v = __builtin_shufflevector(y01, y23, 0, 1, 8, 9, 4, 5, 12, 13);
+  r.z.v = __builtin_shufflevector(xz01, xz23, 2, 3, 10, 11, 6, 7, 14, 15);
+#elif defined(__AVX__)
+  const Four p0 = at(0), p1 = at(1), p2 = at(2), p3 = at(3);
+  const Four xz01 = __builtin_shufflevector(p0, p1, 0, 4, 2, 6), xz23 = __builtin_shufflevector(p2, p3, 0, 4, 2, 6);
+  const Four y01 = __builtin_shufflevector(p0, p1, 1, 5, 3, 7), y23 = __builtin_shufflevector(p2, p3, 1, 5, 3, 7);
+  r.x.v = __builtin_shufflevector(xz01, xz23, 0, 1, 4, 5);
+  r.y.v = __builtin_shufflevector(y01, y23, 0, 1, 4, 5);
+  r.z.v = __builtin_shufflevector(xz01, xz23, 2, 3, 6, 7);
+#else
+  for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
+    const Four p = at(lane);
+    r.x.v[lane] = p[0];
+    r.y.v[lane] = p[1];
+    r.z.v[lane] = p[2];
+  }
+#endif
+  return r;
+}
+
+/// Writes a, b, c, d of every lane next to one another: lane l to to[l * Stride].
+template <std::size_t Stride>
+KARDAN_INLINE void spread(const Pack& a, const Pack& b, const Pack& c, const Pack& d, double* to) {
+#if defined(__AVX512F__)
+  const Pack::Vector ab02 = __builtin_shufflevector(a.v, b.v, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Pack::Vector ab13 = __builtin_shufflevector(a.v, b.v, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Pack::Vector cd02 = __builtin_shufflevector(c.v, d.v, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Pack::Vector cd13 = __builtin_shufflevector(c.v, d.v, 1, 9, 3, 11, 5, 13, 7, 15);
+  const auto both = [&](const Pack::Vector& v, std::size_t lane) {
+    store_as(Four(__builtin_shufflevector(v, v, 0, 1, 2, 3)), to + lane * Stride);
+    store_as(Four(__builtin_shufflevector(v, v, 4, 5, 6, 7)), to + (lane + 4) * Stride);
+  };
+  both(__builtin_shufflevector(ab02, cd02, 0, 1, 8, 9, 4, 5, 12, 13), 0);
+  both(__builtin_shufflevector(ab13, cd13, 0, 1, 8, 9, 4, 5, 12, 13), 1);
+  both(__builtin_shufflevector(ab02, cd02, 2, 3, 10, 11, 6, 7, 14, 15), 2);
+  both(__builtin_shufflevector(ab13, cd13, 2, 3, 10, 11, 6, 7, 14, 15), 3);
+#elif defined(__AVX__)
+  const Four ab02 = __builtin_shufflevector(a.v, b.v, 0, 4, 2, 6), ab13 = __builtin_shufflevector(a.v, b.v, 1, 5, 3, 7);
+  const Four cd02 = __builtin_shufflevector(c.v, d.v, 0, 4, 2, 6), cd13 = __builtin_shufflevector(c.v, d.v, 1, 5, 3, 7);
+  store_as(Four(__builtin_shufflevector(ab02, cd02, 0, 1, 4, 5)), to);
+  store_as(Four(__builtin_shufflevector(ab13, cd13, 0, 1, 4, 5)), to + Stride);
+  store_as(Four(__builtin_shufflevector(ab02, cd02, 2, 3, 6, 7)), to + 2 * Stride);
+  store_as(Four(__builtin_shufflevector(ab13, cd13, 2, 3, 6, 7)), to + 3 * Stride);
+#else
+  for (std::size_t lane = 0; lane < Pack::lanes; ++lane) {
+    double* const p = to + lane * Stride;
+    p[0] = a.v[lane];
+    p[1] = b.v[lane];
+    p[2] = c.v[lane];
+    p[3] = d.v[lane];
+  }
+#endif
+}
+
+/// Forces of a block's elements on their nodes, as the nodes have them: [node of the element][lane][force and moment].
+template <std::size_t Nodes, std::size_t Components>
+struct alignas(64) NodalForces {
+  static constexpr std::size_t stride = Components == 6 ? 8 : 4;
+  double value[Nodes][block_lanes][stride];
+
+  /// Forces (and moments) on node a of the lanes from `first` on.
+  KARDAN_INLINE void set(std::size_t a, std::size_t first, const Vec3T<Pack>& f) {
+    spread<stride>(f.x, f.y, f.z, Pack(), value[a][first]);
+  }
+  KARDAN_INLINE void set(std::size_t a, std::size_t first, const Vec3T<Pack>& f, const Vec3T<Pack>& m) {
+    spread<stride>(f.x, f.y, f.z, m.x, value[a][first]);
+    spread<stride>(m.y, m.z, Pack(), Pack(), value[a][first] + 4);
+  }
+  /// Takes the forces of the lanes that are alive from the slots of the tile's nodes: what acts on the element acts against its node.
+  KARDAN_INLINE void scatter(const std::uint16_t* connectivity, const double* alive, double* slots) const {
+    for (std::size_t a = 0; a < Nodes; ++a) {
+      for (std::size_t l = 0; l < block_lanes; ++l) {
+        if (!(alive[l] > 0)) continue;
+        double* const slot = slots + Components * connectivity[a * block_lanes + l];
+        if constexpr (Components == 6) {
+          store_as(load_as<Four>(slot) - load_as<Four>(value[a][l]), slot);
+          store_as(load_as<Two>(slot + 4) - load_as<Two>(value[a][l] + 4), slot + 4);
+        } else {
+          store_as(load_as<Two>(slot) - load_as<Two>(value[a][l]), slot);
+          slot[2] -= value[a][l][2];
+        }
+      }
+    }
+  }
+};
+
+}  // namespace kardan::KARDAN_ISA_NAMESPACE
