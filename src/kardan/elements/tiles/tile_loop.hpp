@@ -58,7 +58,7 @@ class TileReport {
       const std::size_t l = i * Pack::lanes, place = b * block_lanes + l;
       const Pack own = Pack::load(block.internal + l);
       Pack alive = Pack::load(block.alive + l), step = Pack::load(block.time_step + l);
-      if (work.smallest_step > 0) alive = select(step < Pack(work.smallest_step), zero, alive);
+      if (work.alive && work.smallest_step > 0) alive = select(step < Pack(work.smallest_step), zero, alive);
       internal_[i] += own;
       hourglass_[i] += Pack::load(block.hourglass + l);
       if (work.energy) (Pack::load(work.energy + place) + own).store(work.energy + place);
