@@ -112,6 +112,11 @@ struct Bench {
     elements->internal_forces(model, state);
     elements->add_forces(state, 0, static_cast<NodeIndex>(model.nodes.size()));
   }
+  /// Energies and results of elements at t_n.
+  void look() {
+    elements->account(model, state);
+    elements->report(model, state);
+  }
   /// One cycle; `hold` may change the kicked velocities, `load` the forces.
   template <class Load, class Hold>
   void step(double dt, Load load, Hold hold) {

@@ -82,7 +82,7 @@ Mat3 strain_and_compute(Bench& b) {
   const Mat3 rate = (some_gradient() + transpose(some_gradient())) * 0.5;
   for (std::size_t n = 0; n < b.model.nodes.size(); ++n) b.state.nodes.v[n] = rate * b.model.nodes.x[n];
   b.forces();
-  b.elements->account(b.model, b.state);
+  b.look();
   const Mat3 d =
       rate * inverse(Mat3::identity() - rate * (0.5 * dt)) * dt;  // on the geometry of the middle of the step
   return Mat3::identity() * (lambda * trace(d)) + d * (2 * mu);
@@ -138,7 +138,7 @@ TEST(Solid, OneTetrahedronHasTheVolumeAndStepOfATetrahedron) {
   const double dt = b.state.clock.dt_previous = 1e-12;
   for (std::size_t i = 0; i < 4; ++i) b.state.nodes.v[i] = {b.model.nodes.x[i].x, 0, 0};
   b.forces();
-  b.elements->account(b.model, b.state);
+  b.look();
   EXPECT_NEAR(b.state.energy.internal, 0.5 * (lambda + 2 * mu) * dt * dt / 3.0, 1e-9 * (lambda + 2 * mu) * dt * dt);
   const double altitude = 1.0 / std::sqrt(1.0 + 1.0 + 0.25);  // onto the face x/2 + y + z = 1
   EXPECT_NEAR(b.elements->stable_time_step(), altitude / std::sqrt((lambda + 2 * mu) / density),
@@ -160,7 +160,7 @@ TEST(Solid, RigidRotationTurnsTheStressAndLeavesTheEnergy) {
     b.forces();
     move_to(b, strained, 1e-3);  // at rest: viscous forces are gone
     b.forces();
-    b.elements->account(b.model, b.state);
+    b.look();
     const std::vector<Vec3> f0 = b.state.nodes.force;
     const Mat3 s0 = to_tensor(b.state.results.solid.stress[0]);
     const double energy = b.state.energy.internal, springs = b.state.energy.hourglass;
@@ -174,7 +174,7 @@ TEST(Solid, RigidRotationTurnsTheStressAndLeavesTheEnergy) {
       for (Vec3& p : x) p = q * p;
       move_to(b, x, 1e-3);
       b.forces();
-      b.elements->account(b.model, b.state);
+      b.look();
       EXPECT_LT(size_of(to_tensor(b.state.results.solid.stress[0]) - q * s0 * transpose(q)), 1e-11 * size_of(s0)) << i;
       for (std::size_t n = 0; n < 8; ++n) EXPECT_LT(norm(b.state.nodes.force[n] - q * f0[n]), 1e-10 * norm(f0[n])) << i;
     }
@@ -195,7 +195,7 @@ TEST(Solid, UniaxialStretchFollowsTheLogarithmicStrain) {
       move_to(b, x, 1e-3 / steps);
       b.forces();
     }
-    b.elements->account(b.model, b.state);
+    b.look();
     const double modulus = lambda + 2 * mu, strain = std::log(1.5);
     const StressVector& s = b.state.results.solid.stress[0];
     EXPECT_NEAR(s[0], s[2] * lambda / modulus, 1e-9 * s[2]);
@@ -223,7 +223,7 @@ TEST(Solid, SimpleShearHasTheStressOfJaumannsRate) {
       move_to(b, x, 1e-3 / steps);
       b.forces();
     }
-    b.elements->account(b.model, b.state);
+    b.look();
     const StressVector& s = b.state.results.solid.stress[0];
     EXPECT_NEAR(b.state.energy.internal / (mu * (1 - std::cos(shear))), 1.0, 1.0 / (steps * steps));
     return std::max(std::abs(s[3] - mu * std::sin(shear)), std::abs(s[0] - mu * (1 - std::cos(shear)))) / mu;

@@ -29,6 +29,20 @@ std::string progress_line(const ProgressFigures& f) {
   return line;
 }
 
+std::string deletion_line(const ElementResults& results) {
+  std::string line = "deleted so far:";
+  const char* separator = " ";
+  const auto add = [&](std::int64_t count, const char* what) {
+    if (count == 0) return;
+    line += fmt::format("{}{} {}{}", separator, count, what, count == 1 ? "" : "s");
+    separator = ", ";
+  };
+  add(results.deleted_shells, "shell");
+  add(results.deleted_solids, "solid");
+  add(results.deleted_beams, "beam");
+  return line;
+}
+
 bool Progress::due(const State& state, const StepView&) {
   const std::int64_t cycle = state.clock.cycle;
   if (cycle == 0) return true;
@@ -60,6 +74,10 @@ void Progress::at(const Model&, const State& state, const StepView& view) {
   figures.energy_ratio = state.energy.ratio();
   const std::string line = progress_line(figures);
   log_.terminal() && !view.last() ? log_.live(line) : log_.line(line);
+  const ElementResults& results = state.results;
+  const std::int64_t deleted = results.deleted_shells + results.deleted_solids + results.deleted_beams;
+  if (deleted > deleted_) log_.line(deletion_line(results));
+  deleted_ = deleted;
   last_seconds_ = now;
   last_cycle_ = figures.cycle;
 }

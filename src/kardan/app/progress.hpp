@@ -7,6 +7,7 @@
 #include "kardan/app/log.hpp"
 #include "kardan/base/timer.hpp"
 #include "kardan/solver/observer.hpp"
+#include "kardan/state/results.hpp"
 
 namespace kardan::app {
 
@@ -24,7 +25,10 @@ struct ProgressFigures {
 /// " 42.3%  t 2.1150e-01 of 5.0000e-01  dt 1.000e-06 (DTINIT)  cycle 211500  812 ns/body-cycle  energy 1.000000  ETA 0:12"
 std::string progress_line(const ProgressFigures& figures);
 
-/// Says how far the run is: on a terminal a line redrawn several times a second, elsewhere a line every few seconds.
+/// "deleted so far: 12 shells, 1 solid"
+std::string deletion_line(const ElementResults& results);
+
+/// Says how far the run is, and which elements have been deleted: on a terminal a line redrawn several times a second, elsewhere a line every few seconds.
 class Progress : public Observer {
  public:
   explicit Progress(Log& log) : log_(log) {}
@@ -39,6 +43,7 @@ class Progress : public Observer {
   Log& log_;
   Stopwatch watch_;
   double last_seconds_ = 0;
+  std::int64_t deleted_ = 0;  ///< elements, when last looked at
   std::int64_t last_cycle_ = -1, check_every_ = 1, next_check_ = 0;
 };
 

@@ -21,6 +21,10 @@ ResultFiles::ResultFiles(const Solver& solver, const std::filesystem::path& fold
 
 bool ResultFiles::due(const State& state, const StepView&) { return writer_.due(state.clock.time, state.clock.dt); }
 
+bool ResultFiles::reads_elements(const State& state, const StepView& view) const {
+  return view.last() || writer_.elements_due(state.clock.time, state.clock.dt);
+}
+
 void ResultFiles::at(const Model& model, const State& state, const StepView& view) {
   view.last() ? writer_.write_now(model, state) : writer_.write_due(model, state);
 }

@@ -13,6 +13,7 @@ class ResultFiles : public Observer {
   ResultFiles(const Solver& solver, const std::filesystem::path& folder);
 
   bool due(const State& state, const StepView& view) override;
+  bool reads_elements(const State& state, const StepView& view) const override;
   void at(const Model& model, const State& state, const StepView& view) override;
   /// Completes all files. @throws RunError if one cannot be written.
   void close();

@@ -55,7 +55,7 @@ ElementSystem::ElementSystem(const Model& model, State& state, Diagnostics& diag
   impl_ = std::make_unique<Impl>(model, state, diagnostics);
   if (diagnostics.ok()) {
     impl_->sections = std::make_unique<SectionForces>(
-        model, std::array<TileElements*, 3>{&impl_->shells.elements(), &impl_->solids.elements(), &impl_->beams.elements()});
+        model, std::array<std::vector<TileElements*>, 3>{impl_->shells.elements(), {&impl_->solids.elements()}, {&impl_->beams.elements()}});
   }
   state.discretes.assign(model.discretes.size(), DiscreteReport{});
   state.results.beam.resize(model.beams.size());
@@ -116,6 +116,11 @@ double ElementSystem::rigid_courant_time_step(const Model& model, const State& s
   return dt;
 }
 
+void ElementSystem::report(const Model& model, State& state) const {
+  impl_->shells.report(model, state);
+  impl_->solids.report(state.results.solid);
+}
+
 void ElementSystem::account(const Model& model, State& state) {
   EnergyLedger& energy = state.energy;
   energy.spring_damper = impl_->discretes.energy();
@@ -125,10 +130,13 @@ void ElementSystem::account(const Model& model, State& state) {
   impl_->solids.add_energies(energy.part_internal, energy.part_hourglass);
   impl_->beams.add_energies(energy.part_internal, energy.part_hourglass);
   impl_->discrete_beams.add_energies(model, energy.part_internal);
-  impl_->solids.report(state.results.solid);
   impl_->beams.report(state, state.results.beam);
   impl_->discrete_beams.report(state.results.beam);
   impl_->sections->report(model, state);
+  energy.eroded_internal = impl_->shells.eroded_energy() + impl_->solids.elements().eroded_energy() + impl_->beams.elements().eroded_energy();
+  state.results.deleted_shells = impl_->shells.deleted();
+  state.results.deleted_solids = impl_->solids.elements().deleted();
+  state.results.deleted_beams = impl_->beams.elements().deleted();
   energy.internal = std::accumulate(energy.part_internal.begin(), energy.part_internal.end(), 0.0);
   energy.hourglass = std::accumulate(energy.part_hourglass.begin(), energy.part_hourglass.end(), 0.0);
 }

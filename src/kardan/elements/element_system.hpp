@@ -43,6 +43,9 @@ class ElementSystem {
   /// +infinity if there are none: LS-DYNA takes it for decks with nothing deformable.
   double rigid_courant_time_step(const Model& model, const State& state) const;
 
+  /// What D3PLOT and ELOUT show of the elements at t_n, into state.results.
+  void report(const Model& model, State& state) const;
+
   /// Between kick and drift: internal and hourglass energies by part and in sum, and the energy of springs and dampers,
   /// at t_n, into state.energy.
   void account(const Model& model, State& state);

@@ -14,6 +14,12 @@ constexpr std::array<std::array<std::size_t, 4>, 6> faces{
 
 }  // namespace
 
+Mat3 shell_frame(const ElementCoordinates<4>& x) {
+  const Vec3 e3 = normalized(cross(x[2] - x[0], x[3] - x[1])), side = x[1] - x[0];
+  const Vec3 e1 = normalized(side - e3 * dot(side, e3));
+  return Mat3::columns(e1, cross(e3, e1), e3);
+}
+
 double hexahedron_volume(const ElementCoordinates<8>& x) {
   const double g = 1.0 / std::sqrt(3.0);
   double volume = 0;

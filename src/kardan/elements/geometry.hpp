@@ -29,6 +29,10 @@ inline bool is_triangle(const std::array<NodeIndex, 4>& n) { return n[2] == n[3]
 /// triangles and flat quadrilaterals.
 inline double shell_area(const ElementCoordinates<4>& x) { return 0.5 * norm(cross(x[2] - x[0], x[3] - x[1])); }
 
+/// Axes of a shell as Belytschko, Lin and Tsay 1984 and LS-DYNA lay them: z normal to both diagonals, x along side 1-2 made normal to it. Columns:
+/// x, y, z in global components.
+Mat3 shell_frame(const ElementCoordinates<4>& x);
+
 /// Characteristic length of a shell for ISDO of *CONTROL_TIMESTEP [length]:
 /// 0: (1 + b) A / max(L1, L2, L3, (1 - b) L4) with b = 0 for quadrilaterals and 1 for triangles;
 /// 1: (1 + b) A / max(D1, D2) with the diagonals D (the two sides at node 3 of a triangle).

@@ -6,18 +6,18 @@
 
 namespace kardan {
 
-SectionForces::SectionForces(const Model& model, const std::array<TileElements*, 3>& tiled) : tiled_(tiled) {
+SectionForces::SectionForces(const Model& model, const std::array<std::vector<TileElements*>, 3>& tiled) {
   corners_.resize(model.cross_sections.size());
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const CrossSection& section = model.cross_sections[i];
-    for (std::size_t kind = 0; kind < tiled_.size(); ++kind) {
-      if (tiled_[kind] == nullptr) continue;
-      tiled_[kind]->watch(section.elements[kind]);
-      for (const Index element : section.elements[kind]) {
-        const std::vector<NodeIndex> nodes = tiled_[kind]->nodes_of(element);
-        for (std::size_t a = 0; a < nodes.size(); ++a) {
-          if (!std::binary_search(section.nodes.begin(), section.nodes.end(), nodes[a])) continue;
-          corners_[i][kind].push_back({element, a, nodes[a]});
+    for (std::size_t kind = 0; kind < tiled.size(); ++kind) {
+      for (TileElements* group : tiled[kind]) {
+        group->watch(section.elements[kind]);
+        for (const Index element : section.elements[kind]) {
+          const std::vector<NodeIndex> nodes = group->nodes_of(element);
+          for (std::size_t a = 0; a < nodes.size(); ++a) {
+            if (std::binary_search(section.nodes.begin(), section.nodes.end(), nodes[a])) corners_[i].push_back({group, element, a, nodes[a]});
+          }
         }
       }
     }
@@ -35,11 +35,9 @@ void SectionForces::report(const Model& model, State& state) const {
       r.force += force;
       r.moment += cross(state.nodes.x[node] - r.centroid, force) + moment;
     };
-    for (std::size_t kind = 0; kind < tiled_.size(); ++kind) {
-      for (const Corner& c : corners_[i][kind]) {
-        const std::array<Vec3, 2> f = tiled_[kind]->force_on(c.element, c.a);
-        add(c.node, f[0], f[1]);
-      }
+    for (const Corner& c : corners_[i]) {
+      const std::array<Vec3, 2> f = c.group->force_on(c.element, c.a);
+      add(c.node, f[0], f[1]);
     }
     for (const Index e : section.elements[static_cast<std::size_t>(ElementKind::discrete)]) {
       const auto& nodes = model.discretes.nodes[e];

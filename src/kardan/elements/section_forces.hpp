@@ -14,20 +14,20 @@ namespace kardan {
 /// beyond it, this is the traction of the other side: in tension it points away from the elements.
 class SectionForces {
  public:
-  /// @param tiled the elements of shells, solids and beams, in the order of ElementKind; null where there are none
-  SectionForces(const Model& model, const std::array<TileElements*, 3>& tiled);
+  /// @param tiled the groups of shells, solids and beams, in the order of ElementKind
+  SectionForces(const Model& model, const std::array<std::vector<TileElements*>, 3>& tiled);
   /// Writes state.sections at t_n.
   void report(const Model& model, State& state) const;
 
  private:
   /// A node of an element that lies on the section.
   struct Corner {
+    const TileElements* group = nullptr;
     Index element = none;
     std::size_t a = 0;
     NodeIndex node = none;
   };
-  std::array<TileElements*, 3> tiled_;
-  std::vector<std::array<std::vector<Corner>, 3>> corners_;  ///< by section and ElementKind
+  std::vector<std::vector<Corner>> corners_;  ///< by section
 };
 
 }  // namespace kardan

@@ -153,6 +153,12 @@ bool ResultsWriter::due(double time, double dt) const {
                      [&](const auto& entry) { return entry.second.schedule.due(time, dt); });
 }
 
+bool ResultsWriter::elements_due(double time, double dt) const {
+  return std::any_of(impl_->outputs.begin(), impl_->outputs.end(), [&](const auto& entry) {
+    return (entry.first == OutputFile::d3plot || entry.first == OutputFile::elout) && entry.second.schedule.due(time, dt);
+  });
+}
+
 void ResultsWriter::write_due(const Model& model, const State& state) {
   impl_->write_chosen(model, state, [&](const Impl::Output& output) {
     return output.schedule.due(state.clock.time, step_of(state.clock));

@@ -18,8 +18,8 @@ struct WriterOptions {
   D3plotOptions d3plot;
 };
 
-/// Writes what model.output.requests asks for (d3plot; glstat, matsum, nodout, rbdout, jntforc, bndout, spcforc, deforc
-/// as ASCII, binout or both), each at its own times: k * dt or by its interval curve, first at t = 0 and last at the
+/// Writes what model.output.requests asks for (d3plot; glstat, matsum, nodout, rbdout, jntforc, bndout, spcforc, deforc,
+/// elout as ASCII, binout or both), each at its own times: k * dt or by its interval curve, first at t = 0 and last at the
 /// end time. Every write is flushed, so that a killed run leaves readable files. The model must outlive the writer.
 class ResultsWriter {
  public:
@@ -32,6 +32,8 @@ class ResultsWriter {
 
   /// Some file is due at `time`, so that nodes and reports must be brought up to date. `dt`: step to come.
   bool due(double time, double dt) const;
+  /// One of the files that are due shows elements (d3plot, elout): state.results must be up to date.
+  bool elements_due(double time, double dt) const;
   /// Writes the files that are due. To be called between kick and drift, with reports and nodes up to date at t_n.
   void write_due(const Model& model, const State& state);
   /// Writes every file that has no output at t_n yet, due or not: the last state of a run that stops early.

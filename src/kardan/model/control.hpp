@@ -52,9 +52,8 @@ struct OutputControl {
   std::map<OutputFile, OutputRequest> requests;
   std::vector<NodeIndex> history_nodes;
   std::vector<Index> history_shells, history_solids, history_beams, history_discrete;
-  int maxint = 3;            ///< *DATABASE_EXTENT_BINARY
-  int strain_flag = 0;
-  int component_flag_shell = 1;
+  int maxint = 3;            ///< *DATABASE_EXTENT_BINARY; its size is the number of layers
+  bool global_shell_axes = false;  ///< EOCS = 2 of *CONTROL_OUTPUT: shells of ELOUT in global axes, else in their own
 };
 
 /// *CONTROL_DYNAMIC_RELAXATION: static equilibrium before t = 0, by damped motion.
@@ -77,6 +76,9 @@ struct Control {
   int hourglass_type = 0;
   double hourglass_qm = 0.1;
   int shell_istupd = 0, shell_bwc = 2;
+  int shell_theory = 2;       ///< formulation of sections without ELFORM
+  int shell_esort = 0;        ///< 1: triangles of quadrilateral formulations are C0 triangles (ELFORM 4)
+  bool shell_lobatto = false; ///< INTGRD = 1: 3 to 10 points through the thickness by Lobatto's rule
 };
 
 }  // namespace kardan

@@ -46,6 +46,8 @@ struct ElementBlock {
 struct ShellElements : ElementBlock<4> {
   /// *ELEMENT_SHELL_THICKNESS: thickness at the four nodes by element index; absent where the section's holds.
   std::unordered_map<Index, std::array<double, 4>> thickness;
+  /// *ELEMENT_SHELL_OFFSET: height of the mid surface above the nodes, along the element's normal; absent: NLOC of the section.
+  std::unordered_map<Index, double> offset;
 };
 
 struct SolidElements : ElementBlock<8> {};
@@ -80,10 +82,19 @@ struct PointInertia {
   Index frame = none;
 };
 
+/// *INTEGRATION_SHELL: a rule through the thickness.
+struct ShellRule {
+  UserId id = 0;
+  bool equal = false;               ///< ESOP = 1: points in the middle of equal layers
+  int points = 0;
+  std::vector<double> s, weight;    ///< by point: -1 inside to 1 outside, thickness of its layer over all; empty where `equal`
+};
+
 struct ShellSection {
   int elform = 2;
   double shrf = 1.0;
   int nip = 2;
+  Index rule = none;                ///< into Model::shell_rules; else NIP points of CONTROL_SHELL's INTGRD
   std::array<double, 4> thickness{};
   double nloc = 0;
   double mass_per_area = 0;  ///< MAREA

@@ -32,6 +32,7 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Hourglass> hourglasses;
   std::vector<EquationOfState> equations_of_state;
+  std::vector<ShellRule> shell_rules;
 
   std::vector<Curve> curves;
   std::vector<Table> tables;

@@ -53,6 +53,9 @@ class Observer {
   /// False if only bodies and energies are looked at: then the nodes of rigid bodies and the joints' reports are not brought
   /// up to date for it.
   virtual bool reads_nodes() const { return true; }
+  /// True if stresses and other results of elements are looked at (state.results): they are brought up to date for it. Asked only
+  /// where this observer is due.
+  virtual bool reads_elements(const State&, const StepView&) const { return false; }
   virtual void at(const Model& model, const State& state, const StepView& view) = 0;
 };
 

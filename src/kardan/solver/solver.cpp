@@ -223,6 +223,8 @@ void Solver::find_due_observers() {
 void Solver::notify() {
   const StepView now = view();
   bool reports_current = false;
+  const auto looks_at_elements = [&](const Observer* observer) { return observer->reads_elements(state_, now); };
+  if (std::any_of(due_.begin(), due_.end(), looks_at_elements)) elements_->report(model_, state_);
   for (Observer* observer : due_) {
     if (!reports_current && observer->reads_nodes()) {
       rigid_->update_reports(model_, state_);

@@ -15,6 +15,12 @@ namespace kardan {
 /// Stress components xx, yy, zz, xy, yz, zx in global axes.
 using StressVector = std::array<double, 6>;
 
+/// One integration point of an element, for ELOUT.
+struct PointStress {
+  StressVector stress{};
+  double plastic_strain = 0;
+};
+
 /// Shells, by element of the model. `layers` sets of through-thickness data per shell in the order of D3PLOT: mid
 /// surface, inner surface, outer surface, then further integration points from the inside out.
 struct ShellResults {
@@ -27,6 +33,9 @@ struct ShellResults {
   std::vector<double> thickness;             ///< length; empty: the section's is written
   std::vector<double> internal_energy;       ///< energy/volume
   std::vector<std::uint8_t> alive;           ///< 0 = eroded; empty = no shell can erode
+  /// By entry of OutputControl::history_shells: the points from the inside out, in the element's axes, or global ones (EOCS = 2); none
+  /// for rigid and eroded shells.
+  std::vector<std::vector<PointStress>> history;
 };
 
 /// Solids, by element of the model.
@@ -57,6 +66,8 @@ struct ElementResults {
   ShellResults shell;
   SolidResults solid;
   BeamResults beam;
+
+  std::int64_t deleted_shells = 0, deleted_solids = 0, deleted_beams = 0;  ///< so far
 
   /// Some element may erode: D3PLOT then carries a deletion table.
   bool deletable() const { return !shell.alive.empty() || !solid.alive.empty() || !beam.alive.empty(); }

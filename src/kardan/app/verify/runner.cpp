@@ -1,5 +1,6 @@
 #include "kardan/app/verify/runner.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -15,9 +16,10 @@ namespace {
 /// Values of all signals at the times of samples.
 class Recorder : public Observer {
  public:
-  Recorder(const Run& run, std::vector<Signal> signals)
-      : run_(run), signals_(std::move(signals)), series_(signals_.size()) {}
+  Recorder(const Run& run, std::vector<Signal> signals, bool elements)
+      : run_(run), signals_(std::move(signals)), series_(signals_.size()), elements_(elements) {}
 
+  bool reads_elements(const State&, const StepView&) const override { return elements_; }
   std::int64_t samples() const { return samples_; }
   std::vector<Series> take() { return std::move(series_); }
 
@@ -42,6 +44,7 @@ class Recorder : public Observer {
   std::vector<Signal> signals_;
   std::vector<Series> series_;
   std::int64_t samples_ = -1;
+  bool elements_;  ///< some signal is a stress
 };
 
 /// A constant step that divides the interval of the samples.
@@ -122,11 +125,14 @@ std::vector<Series> record(const Run& run, const std::vector<nlohmann::json>& si
     Solver solver(model, options, diagnostics);
     std::vector<Signal> made;
     for (const auto& signal : signals) made.push_back(make_signal(signal, model, solver.state()));
+    const bool elements = std::any_of(signals.begin(), signals.end(), [](const nlohmann::json& signal) {
+      return signal.dump().find("\"stress\"") != std::string::npos;
+    });
     std::unique_ptr<Recorder> recorder;
     if (run.free_step())
-      recorder = std::make_unique<FreeStepRecorder>(run, std::move(made));
+      recorder = std::make_unique<FreeStepRecorder>(run, std::move(made), elements);
     else
-      recorder = std::make_unique<ConstantStepRecorder>(run, std::move(made));
+      recorder = std::make_unique<ConstantStepRecorder>(run, std::move(made), elements);
     solver.attach(*recorder);
     while (recorder->samples() < last && solver.step()) {
     }

@@ -25,6 +25,7 @@ class BeamForces {
   void add_forces(State& state, NodeIndex begin, NodeIndex end) const { elements_.add_forces(state, begin, end); }
   TileElements& elements() { return elements_; }
   const Governing& governing() const { return elements_.governing(); }
+  const TileElements& elements() const { return elements_; }
   /// Adds the energies at t_n, by part.
   void add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const {
     elements_.add_energies(internal, hourglass);

@@ -117,18 +117,45 @@ KARDAN_INLINE ShellStrains<R> shell_strains(const ShellAxes<R>& s, const Vec3T<R
   return r;
 }
 
+/// Thickness of an element and the height of its mid surface over the nodes.
+template <class R>
+struct ShellThickness {
+  double* kept;
+  R value, half, offset;
+
+  KARDAN_INLINE ShellThickness(const ShellProperties& p, double* kept_values)
+      : kept(kept_values), value(R::load(kept + kept_thickness * block_lanes)), half(R(0.5) * value),
+        offset(p.offsets ? R::load(kept + kept_offset * block_lanes) : R(0.0)) {}
+
+  /// Follows the mean normal strain of the step; returns the ratio of new to old.
+  KARDAN_INLINE R update(const ShellProperties& p, const R& strain) const {
+    if (!p.thins) return R(1.0);
+    const R half_strain = R(0.5) * strain, ratio = (R(1.0) + half_strain) / (R(1.0) - half_strain);
+    (value * ratio).store(kept + kept_thickness * block_lanes);
+    return ratio;
+  }
+};
+
 /// Resultants over the thickness.
 template <class R>
 struct ShellResultants {
   R fxx{}, fyy{}, fxy{}, qx{}, qy{}, mxx{}, myy{}, mxy{};
+  R thinning{};  ///< increment of the mean normal strain, where the thickness follows it
   R work{};    ///< of the stresses over the step, per area
   R intact{};  ///< 0 where too many points have failed
   R stiffening{1.0};
+
+  /// The same stresses over a thickness `ratio` times as large.
+  KARDAN_INLINE void scale(const R& ratio) {
+    const R square = ratio * ratio;
+    for (R* force : {&fxx, &fyy, &fxy, &qx, &qy}) *force *= ratio;
+    for (R* moment : {&mxx, &myy, &mxy}) *moment *= square;
+  }
 };
 
 template <class R, class Law>
 KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, const Law& law, const ShellStrains<R>& r,
-                                                   const StepTime& step, R half, double* history) {
+                                                   const StepTime& step, const ShellThickness<R>& thickness, double* history) {
   ShellResultants<R> t;
   R failed{};
   const R spin = R(-0.5) * r.xy;  // the axes follow a line of the material along x, which turns by half of the shear more than it
@@ -139,7 +166,7 @@ KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, con
     s = {R::load(h), R::load(h + block_lanes), R::load(h + 2 * block_lanes), R::load(h + 3 * block_lanes),
          R::load(h + 4 * block_lanes)};
     const PlaneStress<R> old = s;
-    const R z = half * R(p.zeta[i]), w = half * R(p.weight[i]);
+    const R z = thickness.half * R(p.zeta[i]) + thickness.offset, w = thickness.half * R(p.weight[i]);
     const PlaneStress<R>& d = point.strain = {r.xx + z * r.kxx, r.yy + z * r.kyy, r.xy + z * r.kxy, r.yz, r.zx};
     point.spin = spin;
     law.update(point, step, h + 5 * block_lanes);
@@ -147,6 +174,10 @@ KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, con
     failed += point.failed;
     t.work += R(0.5) * w * ((old.xx + s.xx) * d.xx + (old.yy + s.yy) * d.yy + (old.xy + s.xy) * d.xy + (old.yz + s.yz) * d.yz +
                             (old.zx + s.zx) * d.zx);
+    if (p.thins) {
+      const R elastic = R(p.elastic_thinning) * (s.xx + s.yy - old.xx - old.yy);
+      t.thinning += R(0.5 * p.weight[i]) * (point.thickness_strain + elastic);
+    }
     s.xx.store(h);
     s.yy.store(h + block_lanes);
     s.xy.store(h + 2 * block_lanes);
@@ -239,7 +270,7 @@ KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, const Ti
   const R n[2] = {R::load(block.share[0] + first), R::load(block.share[1] + first)};
   history += first;
   double* kept = history + static_cast<std::size_t>(p.points) * shell_point_values(law.history()) * block_lanes;
-  const R thickness = R::load(kept + 5 * block_lanes);
+  const ShellThickness<R> thickness(p, kept);
   const std::uint16_t* const index = connectivity + first;
   const auto gathered = [&](std::size_t a, std::size_t vector) {
     return gather_vectors<node_stride(6)>(work.node + 4 * vector, index + a * block_lanes);
@@ -253,13 +284,14 @@ KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, const Ti
   {
     const Vec3T<R> w[4] = {gathered(0, 2), gathered(1, 2), gathered(2, 2), gathered(3, 2)};
     const ShellStrains<R> strains = shell_strains(before, v, w, n, dt);
-    t = through_thickness(p, law, strains, work.step, R(0.5) * thickness, history);
+    t = through_thickness(p, law, strains, work.step, thickness, history);
     const R active = R::load(block.alive + first);
     select(active > zero, t.work * before.area, zero).store(block.internal + first);
-    const R hourglass_work = hourglass_forces(p, before, strains, dt, thickness, kept, hg);
+    const R hourglass_work = hourglass_forces(p, before, strains, dt, thickness.value, kept, hg);
     select(active > zero, hourglass_work, zero).store(block.hourglass + first);
     (active * t.intact).store(block.alive + first);
   }
+  if (p.thins) t.scale(thickness.update(p, t.thinning));
   stable_step(p, now, x, R::load(block.triangle + first), t.stiffening).store(block.time_step + first);
   nodal_forces(now, t, hg, n, block.force, first);
 }
@@ -280,7 +312,7 @@ void shell_tile(TileWork& work) {
   const ShellProperties& p = *static_cast<const ShellProperties*>(work.properties);
   const Law law(p.law);
   ShellBlock block;
-  for_each_block<4>(work, 6, shell_history_size(p.points, law.history()), block,
+  for_each_block<4>(work, 6, shell_history_size(p, law.history()), block,
                     [&](const std::uint16_t* connectivity, std::size_t, double* history) {
                       find_triangles(connectivity, block);
                       for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) {

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "kardan/elements/free_sides.hpp"
+#include "kardan/elements/geometry.hpp"
 #include "kardan/elements/hourglass.hpp"
 #include "kardan/elements/lumped_mass.hpp"
 
@@ -14,160 +15,178 @@ namespace kardan {
 
 namespace {
 
-constexpr int elform_belytschko_tsay = 2;
-
-/// How many of an element's points must fail before it is deleted.
-double failing_points(const ElementDeletion& deletion, int points) {
-  if (deletion.points == 0) return points;
-  const double count = deletion.points > 0 ? deletion.points : std::ceil(-deletion.points / 100 * points - 1e-9);
-  return std::clamp(count, 1.0, static_cast<double>(points));
-}
-
-ShellProperties properties_of(const Model& model, const Part& part, const Law& law) {
-  const ShellSection& section = model.sections[part.section].shell;
-  const double rho = law.density, e = law.youngs_modulus, nu = law.poissons_ratio;
-  const double transverse = section.shrf * law.shear;  // k G
-  ShellProperties p;
-  p.law = {law.constants.get(), law.update, law.history(), 0};
-  p.points = section.nip > 0 ? section.nip : 2;
-  gauss_rule(p.points, p.zeta, p.weight);
-  for (int i = 0; i < p.points; ++i) p.zeta[i] -= section.nloc;  // NLOC = 1: the nodes lie on the top surface
-  p.wave_speed = std::sqrt(e / (rho * (1 - nu * nu)));
-  p.side_lengths = model.control.time_step.isdo != 1;
-  p.failing_points = failing_points(law.deletion, p.points);
-  const HourglassChoice h = hourglass_of(model, part);
-  p.stiffness_hourglass = h.stiffness();
-  const double shear_ratio = e > 0 ? transverse / e : 0.0;  // k G / E; shells of *MAT_NULL have neither
-  if (p.stiffness_hourglass) {
-    p.hourglass_membrane = h.membrane * e / 8;
-    p.hourglass_bending = h.bending * e / 192;
-    p.hourglass_warping = h.warping * transverse / 12;
-  } else {
-    const double viscous = rho * p.wave_speed / 4;
-    p.hourglass_membrane = h.membrane * viscous;
-    p.hourglass_bending = h.bending * viscous / 24;
-    p.hourglass_warping = h.warping * viscous * shear_ratio * 2 / 3;
+/// Deformable shells that are, or are not, C0 triangles.
+std::vector<Index> deformable_shells(const Model& model, bool c0_triangles) {
+  std::vector<bool> deformable(model.parts.size()), sorts(model.parts.size());
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const Part& part = model.parts[p];
+    deformable[p] = part.section != none && part.material != none && !model.rigid_part(static_cast<PartIndex>(p));
+    if (!deformable[p]) continue;
+    ShellFormulation formulation;
+    Diagnostics unheard;  // make_part() complains
+    find_formulation(model.sections[part.section], {}, unheard, formulation);
+    sorts[p] = sorts_triangles(model, formulation);
   }
-  return p;
-}
-
-std::vector<Index> deformable_shells(const Model& model) {
   std::vector<Index> elements;
   for (std::size_t e = 0; e < model.shells.size(); ++e) {
-    const Part& part = model.parts[model.shells.part[e]];
-    if (part.section != none && part.material != none && !model.rigid_part(model.shells.part[e])) {
-      elements.push_back(static_cast<Index>(e));
-    }
+    const auto part = static_cast<std::size_t>(model.shells.part[e]);
+    const bool c0 = is_triangle(model.shells.nodes[e]) && sorts[part];
+    if (deformable[part] && c0 == c0_triangles) elements.push_back(static_cast<Index>(e));
   }
   return elements;
 }
 
-TileElements cut(const Model& model) {
-  const std::vector<Index> elements = deformable_shells(model);
+TileElements cut(const Model& model, const char* name, bool c0_triangles) {
+  const std::vector<Index> elements = deformable_shells(model, c0_triangles);
   const std::span<const NodeIndex> flat(model.shells.size() == 0 ? nullptr : model.shells.nodes.front().data(), model.shells.size() * 4);
-  return TileElements({"shells", "shell", ElementKind::shell, model.shells.id, {elements, model.shells.part, flat, 4, model.nodes.x}, 6},
+  return TileElements({name, "shell", ElementKind::shell, model.shells.id, {elements, model.shells.part, flat, 4, model.nodes.x}, 6, true},
                       model.nodes.size());
+}
+
+/// Height of a shell's mid surface over its nodes: of *ELEMENT_SHELL_OFFSET, else by NLOC.
+double offset_of(const Model& model, Index shell, double thickness) {
+  if (const auto own = model.shells.offset.find(shell); own != model.shells.offset.end()) return own->second;
+  const Index section = model.parts[model.shells.part[shell]].section;
+  return -0.5 * model.sections[section].shell.nloc * thickness;
+}
+
+/// Stable step over that of a shell whose mid surface lies in its nodes. With the offset z, the radius of gyration r of the rotary inertia and the plate's
+/// i = h/sqrt(12), membrane and bending are coupled to [1, z/r; z/r, (i^2 + z^2)/r^2]: the step goes with the root of its largest eigenvalue.
+double offset_factor(double offset, double thickness, double area) {
+  if (offset == 0) return 1.0;
+  const double own = thickness * thickness / 12, r2 = std::max(own, area / 8), d = (own + offset * offset) / r2;
+  return 1 / std::sqrt(std::max(1.0, 0.5 * (1 + d + std::sqrt((1 - d) * (1 - d) + 4 * offset * offset / r2))));
 }
 
 }  // namespace
 
-void gauss_rule(int n, double* points, double* weights) {
-  for (int i = 0; i < n; ++i) {
-    // Newton's method on the Legendre polynomial from the usual estimate of its roots.
-    double x = std::cos(std::numbers::pi * (n - i - 0.25) / (n + 0.5)), slope = 0;
-    for (int iteration = 0; iteration < 100; ++iteration) {
-      double p0 = 1, p1 = x;
-      for (int k = 2; k <= n; ++k) {
-        const double p2 = ((2 * k - 1) * x * p1 - (k - 1) * p0) / k;
-        p0 = p1;
-        p1 = p2;
-      }
-      slope = n * (x * p1 - p0) / (x * x - 1);
-      const double step = p1 / slope;
-      x -= step;
-      if (std::abs(step) < 1e-16) break;
-    }
-    points[i] = std::abs(x) < 1e-15 ? 0.0 : x;
-    weights[i] = 2 / ((1 - x * x) * slope * slope);
-  }
-}
-
 ShellForces::ShellForces(const Model& model, State& state, Diagnostics& diagnostics)
-    : elements_(cut(model)), laws_(model.parts.size()), properties_(model.parts.size()) {
+    : formulations_(model.parts.size()), laws_(model.parts.size()), quads_{cut(model, "shells", false), {}},
+      triangles_{cut(model, "triangles", true), {}} {
+  std::vector<PartIndex> parts = quads_.elements.parts();
+  const std::vector<PartIndex> others = triangles_.elements.parts();
+  parts.insert(parts.end(), others.begin(), others.end());
+  std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   bool good = true;
-  for (const PartIndex part : elements_.parts()) good = set_up_part(model, part, diagnostics) && good;
+  for (const PartIndex part : parts) good = make_part(model, part, diagnostics) && good;
   if (!good) return;
-  elements_.start(state);
-  start_histories(model);
+  for (Group* group : {&quads_, &triangles_}) {
+    group->properties.resize(model.parts.size());
+    for (const PartIndex part : group->elements.parts()) set_kernel(model, part, *group);
+    start(model, state, *group);
+  }
+  state.results.shell.layers = std::max(1, std::abs(model.output.maxint));
+  if (quads_.elements.deletable() || triangles_.elements.deletable()) state.results.shell.alive.assign(model.shells.size(), 1);
 }
 
-void ShellForces::start_histories(const Model& model) {
-  elements_.for_each([&](Index shell, PartIndex part, double* own) {
-    const Law& law = laws_[part];
-    const int points = properties_[part]->points;
-    const std::size_t per_point = shell_point_values(law.history());
-    for (std::size_t i = 0; i < static_cast<std::size_t>(points); ++i) {
-      for (std::size_t k = 0; k < law.history(); ++k) own[(i * per_point + 5 + k) * block_lanes] = law.start[k];
-    }
-    own[(shell_history_size(points, law.history()) - 1) * block_lanes] = mean_thickness(model, shell);
-  });
-  const std::vector<std::uint8_t> edges = free_edges(model.shells);
-  elements_.scale_steps([&](Index shell, PartIndex part) {
-    const Law& law = laws_[part];
-    const ShellSection& section = model.sections[model.parts[part].section].shell;
-    const double thickness = mean_thickness(model, shell);
-    const FreeBody body{law.density + section.mass_per_area / thickness, law.shear, law.longitudinal, section.shrf * law.shear};
-    return free_shell_factor(model, shell, edges[shell], body, thickness);
-  });
-}
-
-bool ShellForces::set_up_part(const Model& model, PartIndex p, Diagnostics& diagnostics) {
+bool ShellForces::make_part(const Model& model, PartIndex p, Diagnostics& diagnostics) {
   const Part& part = model.parts[p];
   const Section& section = model.sections[part.section];
   const std::string name = "part " + std::to_string(part.id);
-  bool good = true;
-  const auto refuse = [&](const std::string& what, const std::string& cure, const char* keyword) {
-    diagnostics.error(name + " has deformable shells of " + what + ", which this version does not compute", cure, keyword);
-    good = false;
-  };
-  std::optional<Law> law = make_law(model, part, LawUse::shell, section.shell.shrf, diagnostics);
-  if (!law) good = false;
   if (section.kind != ElementKind::shell) return false;  // the lumped masses have complained
-  if (section.shell.elform != elform_belytschko_tsay && section.shell.elform != 0) {
-    refuse("ELFORM = " + std::to_string(section.shell.elform) + " (section " + std::to_string(section.id) + ")",
-           "use ELFORM = 2", "*SECTION_SHELL");
+  bool good = find_formulation(section, name, diagnostics, formulations_[p]);
+  const ShellFormulation& formulation = formulations_[p];
+  std::optional<Law> law = make_law(model, part, LawUse::shell, formulation.membrane ? 0.0 : section.shell.shrf, diagnostics);
+  if (!law) good = false;
+  if (thickness_rule(model, section.shell).points.size() > max_shell_points) {
+    diagnostics.error(name + " has more than " + std::to_string(max_shell_points) + " points through the thickness",
+                      "use at most " + std::to_string(max_shell_points), "*SECTION_SHELL");
+    good = false;
   }
-  if (section.shell.nip > static_cast<int>(max_shell_points)) {
-    refuse("NIP = " + std::to_string(section.shell.nip), "use at most " + std::to_string(max_shell_points) + " points",
-           "*SECTION_SHELL");
-  }
-  if (model.control.shell_istupd != 0) {
-    diagnostics.warning("ISTUPD = " + std::to_string(model.control.shell_istupd) + ": the thickness of " + name +
-                            " stays what it is; this version does not change it with membrane strain",
-                        {}, "*CONTROL_SHELL");
-  }
-  if (model.control.shell_bwc == 1) {
-    diagnostics.warning("BWC = 1: " + name + " is computed without the stiffness of Belytschko, Wong and Chiang for warped shells",
-                        {}, "*CONTROL_SHELL");
+  const auto parts_of_quads = quads_.elements.parts();
+  const bool quads = std::binary_search(parts_of_quads.begin(), parts_of_quads.end(), p);
+  if (formulation.triangles && quads) {
+    diagnostics.error(name + " has ELFORM = 4, triangles, but some of its shells have four nodes", "use ELFORM = 2 or 16", "*SECTION_SHELL");
+    good = false;
   }
   if (!good) return false;
   laws_[p] = std::move(*law);
-  properties_[p] = std::make_shared<const ShellProperties>(properties_of(model, part, laws_[p]));
-  elements_.set_kernel(p, {kernel_for(belytschko_tsay(), laws_[p]), properties_[p],
-                           shell_history_size(properties_[p]->points, laws_[p].history()), laws_[p].can_fail,
-                           laws_[p].deletion.step});
+  if (model.control.shell_bwc == 1 && quads && !formulation.fully_integrated && !formulation.membrane) {
+    diagnostics.warning("BWC = 1: " + name + " is computed without the stiffness of Belytschko, Wong and Chiang for warped shells", {}, "*CONTROL_SHELL");
+  }
+  if (formulation.fully_integrated && hourglass_of(model, part).type == 8) {
+    diagnostics.warning("IHQ = 8: " + name + " is computed without the stiffness against warping that it adds to fully integrated shells", {}, "*HOURGLASS");
+  }
+  if (model.control.shell_istupd == 4 && laws_[p].plastic_strain == Law::npos) {
+    diagnostics.warning("ISTUPD = 4: the material of " + name + " has no plastic strain; its thickness follows the strains beyond nu/E of the stresses",
+                        {}, "*CONTROL_SHELL");
+  }
   return true;
 }
 
+void ShellForces::set_kernel(const Model& model, PartIndex p, Group& group) {
+  const bool c0 = &group == &triangles_;
+  const ShellFormulation& formulation = formulations_[p];
+  ShellProperties properties = shell_properties(model, model.parts[p], laws_[p], formulation, c0);
+  for (const auto& [shell, offset] : model.shells.offset) properties.offsets = properties.offsets || model.shells.part[shell] == p;
+  if (formulation.membrane) properties.offsets = false;
+  const TileKernels& kernels = c0 ? c0_triangle() : (formulation.fully_integrated ? fully_integrated() : belytschko_tsay());
+  group.properties[p] = std::make_shared<const ShellProperties>(properties);
+  group.elements.set_kernel(p, {kernel_for(kernels, laws_[p]), group.properties[p], shell_history_size(properties, laws_[p].history()), laws_[p].can_fail,
+                                laws_[p].deletion.step});
+}
+
+void ShellForces::start(const Model& model, State& state, Group& group) {
+  group.elements.start(state);
+  group.elements.for_each([&](Index shell, PartIndex part, double* own) {
+    const Law& law = laws_[part];
+    const ShellProperties& p = *group.properties[part];
+    const std::size_t per_point = shell_point_values(law.history()), kept = shell_kept(p, law.history());
+    for (std::size_t first = 5; first < kept; first += per_point) {
+      for (std::size_t k = 0; k < law.history(); ++k) own[(first + k) * block_lanes] = law.start[k];
+    }
+    const double thickness = mean_thickness(model, shell);
+    own[(kept + kept_thickness) * block_lanes] = thickness;
+    // The points' heights have NLOC in them already.
+    const double by_nloc = -0.5 * model.sections[model.parts[part].section].shell.nloc * thickness;
+    if (p.offsets) own[(kept + kept_offset) * block_lanes] = offset_of(model, shell, thickness) - by_nloc;
+  });
+  const std::vector<std::uint8_t> edges = free_edges(model.shells);
+  group.elements.scale_steps([&](Index shell, PartIndex part) {
+    const Law& law = laws_[part];
+    const ShellSection& section = model.sections[model.parts[part].section].shell;
+    const bool membrane = formulations_[part].membrane;
+    const double thickness = mean_thickness(model, shell);
+    const FreeBody body{law.density + section.mass_per_area / thickness, law.shear, law.longitudinal, membrane ? 0.0 : section.shrf * law.shear};
+    const double area = shell_area(gather_coordinates(model.nodes.x, model.shells.nodes[shell]));
+    return free_shell_factor(model, shell, edges[shell], body, thickness) *
+           (membrane ? 1.0 : offset_factor(offset_of(model, shell, thickness), thickness, area));
+  });
+}
+
 void ShellForces::internal_forces(const Model& model, State& state) {
-  elements_.internal_forces(model, state, [](const State&, Index) { return "has no area or a value that is not finite"; });
+  const auto fault = [](const State&, Index) { return "has no area or a value that is not finite"; };
+  quads_.elements.internal_forces(model, state, fault);
+  triangles_.elements.internal_forces(model, state, fault);
+}
+
+void ShellForces::add_forces(State& state, NodeIndex begin, NodeIndex end) const {
+  quads_.elements.add_forces(state, begin, end);
+  triangles_.elements.add_forces(state, begin, end);
+}
+
+const Governing& ShellForces::governing() const {
+  const Governing &a = quads_.elements.governing(), &b = triangles_.elements.governing();
+  return b.time_step < a.time_step ? b : a;
+}
+
+void ShellForces::add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const {
+  quads_.elements.add_energies(internal, hourglass);
+  triangles_.elements.add_energies(internal, hourglass);
 }
 
 bool ShellForces::stress(Index shell, int point, double (&s)[5]) const {
-  const double* own = elements_.values_of(shell);
+  const Group& group = group_of(shell);
+  const double* own = group.elements.values_of(shell);
   if (own == nullptr) return false;
-  const std::size_t per_point = shell_point_values(laws_[elements_.part_of(shell)].history());
-  for (std::size_t c = 0; c < 5; ++c) s[c] = own[(static_cast<std::size_t>(point) * per_point + c) * block_lanes];
+  const PartIndex part = group.elements.part_of(shell);
+  const ShellProperties& p = *group.properties[part];
+  const std::size_t per_point = shell_point_values(laws_[part].history());
+  for (std::size_t c = 0; c < 5; ++c) {
+    s[c] = 0;
+    for (int g = 0; g < p.in_plane; ++g) s[c] += own[(static_cast<std::size_t>(g * p.points + point) * per_point + c) * block_lanes] / p.in_plane;
+  }
   return true;
 }
 

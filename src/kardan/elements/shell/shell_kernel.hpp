@@ -22,17 +22,31 @@ struct ShellProperties {
   double hourglass_bending = 0;        ///< stiffness: r E/192;          viscous: the membrane's / 24
   double hourglass_warping = 0;        ///< stiffness: r k G/12;         viscous: the membrane's (2/3) k G/E
   bool side_lengths = true;            ///< time step by sides (ISDO 0), else by diagonals
+  int in_plane = 1;                    ///< points in the plane
+  double cross_strain = 0;             ///< -nu, of the assumed strains of the fully integrated shell
+  bool thins = false;                  ///< the thickness follows the normal strain (ISTUPD)
+  double elastic_thinning = 0;         ///< nu/E where the elastic part of that strain is left out (ISTUPD = 4)
+  bool offsets = false;                ///< elements keep the height of their mid surface over the nodes (*ELEMENT_SHELL_OFFSET)
 };
 
 /// Values that one point keeps: 5 stresses and the law's own.
 constexpr std::size_t shell_point_values(std::size_t law_history) { return 5 + law_history; }
 
-/// Values that one element keeps: those of its points, 5 hourglass forces, thickness.
-constexpr std::size_t shell_history_size(int points, std::size_t law_history) {
-  return shell_point_values(law_history) * static_cast<std::size_t>(points) + 6;
+/// Where the values of an element begin that follow those of its points (through the thickness, for one point in the plane after the other):
+/// 5 hourglass forces, thickness, and the offset where it is kept.
+constexpr std::size_t shell_kept(const ShellProperties& p, std::size_t law_history) {
+  return shell_point_values(law_history) * static_cast<std::size_t>(p.points) * static_cast<std::size_t>(p.in_plane);
+}
+inline constexpr std::size_t kept_thickness = 5, kept_offset = 6;  ///< from there
+
+/// Values that one element keeps.
+constexpr std::size_t shell_history_size(const ShellProperties& p, std::size_t law_history) {
+  return shell_kept(p, law_history) + (p.offsets ? 7 : 6);
 }
 
-/// The Belytschko-Tsay kernels for kernel_level() (base/isa.hpp).
+/// The kernels for kernel_level() (base/isa.hpp): Belytschko-Tsay, C0 triangle, fully integrated.
 const TileKernels& belytschko_tsay();
+const TileKernels& c0_triangle();
+const TileKernels& fully_integrated();
 
 }  // namespace kardan

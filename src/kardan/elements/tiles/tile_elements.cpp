@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace kardan {
 
@@ -46,6 +47,8 @@ void TileElements::start(State& state) {
   history_.assign(size, 0.0);
   internal_.assign(mesh_.tiles.size(), 0.0);
   hourglass_.assign(mesh_.tiles.size(), 0.0);
+  eroded_.assign(mesh_.tiles.size(), 0.0);
+  deleted_.assign(mesh_.tiles.size(), 0);
   outcome_.resize(mesh_.tiles.size());
   place_.assign(input_.ids.size(), none);
   for (const Tile& tile : mesh_.tiles) {
@@ -60,8 +63,10 @@ void TileElements::start(State& state) {
   state.registry.add({input_.name + ".hourglass_energy", "energy", writer}, hourglass_);
   if (deletable) {
     alive_.assign(mesh_.element.size(), 1.0);
-    energy_.assign(mesh_.element.size(), 0.0);
     state.registry.add({input_.name + ".alive", "1", writer}, alive_);
+  }
+  if (deletable || input_.energies) {
+    energy_.assign(mesh_.element.size(), 0.0);
     state.registry.add({input_.name + ".element_energy", "energy", writer}, energy_);
   }
 }
@@ -150,15 +155,27 @@ void TileElements::run_tile(std::size_t t, const State& state, AlignedVector<dou
   if (part.can_fail) {
     work.smallest_step = part.smallest_step;
     work.alive = alive_.data() + first;
-    work.energy = energy_.data() + first;
   }
+  if (!energy_.empty()) work.energy = energy_.data() + first;
   if (!step_factor_.empty() && !step_factor_[t].empty()) work.step_factor = step_factor_[t].data();
   if (!watched_begin_.empty() && watched_begin_[t] != npos) work.element_force = watched_force_.data() + watched_begin_[t];
   work.force = slots_.slots(tile);
   part.kernel(work);
   internal_[t] += work.internal_increment;
+  if (part.can_fail) count_deleted(t);
   hourglass_[t] += work.hourglass_increment;
   outcome_[t] = {work.time_step, work.governing, work.broken};
+}
+
+void TileElements::count_deleted(std::size_t t) {
+  const Tile& tile = mesh_.tiles[t];
+  const double* alive = alive_.data() + tile.first_block * block_lanes;
+  const auto count = std::count(alive, alive + tile.elements, 0.0);
+  if (count == deleted_[t]) return;
+  deleted_[t] = count;
+  const double* energy = energy_.data() + tile.first_block * block_lanes;
+  eroded_[t] = 0;
+  for (std::size_t i = 0; i < tile.elements; ++i) eroded_[t] += alive[i] > 0 ? 0.0 : energy[i];
 }
 
 void TileElements::internal_forces(const Model& model, State& state,
@@ -202,9 +219,13 @@ void TileElements::report_broken(const Model& model, const State& state, Index e
   throw RunError(text);
 }
 
+double TileElements::eroded_energy() const { return std::accumulate(eroded_.begin(), eroded_.end(), 0.0); }
+
+std::int64_t TileElements::deleted() const { return std::accumulate(deleted_.begin(), deleted_.end(), std::int64_t{0}); }
+
 void TileElements::add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const {
   for (std::size_t t = 0; t < internal_.size(); ++t) {
-    internal[mesh_.tiles[t].part] += internal_[t];
+    internal[mesh_.tiles[t].part] += internal_[t] - eroded_[t];
     hourglass[mesh_.tiles[t].part] += hourglass_[t];
   }
 }

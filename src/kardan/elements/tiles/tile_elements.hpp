@@ -40,6 +40,7 @@ struct TileElementsInput {
   std::span<const UserId> ids;     ///< by element of the model
   TileInput tiles;
   std::size_t components = 3;      ///< of the nodal forces: 3, or 6 with moments
+  bool energies = false;           ///< keep the internal energy of every element, not only of those that can be deleted
 };
 
 class TileElements {
@@ -88,7 +89,7 @@ class TileElements {
   double alive(Index element) const;
   /// Whether some element may be deleted.
   bool deletable() const { return !alive_.empty(); }
-  /// Internal energy of an element at t_n; 0 where nothing of its part can be deleted.
+  /// Internal energy of an element at t_n; 0 where it is not kept.
   double energy(Index element) const;
 
   /// Set-up, after start(): keeps the nodal forces of these elements, those that are here, for add_force_on().
@@ -107,7 +108,10 @@ class TileElements {
     slots_.add_to(state.nodes.force, state.nodes.moment, begin, end);
   }
   const Governing& governing() const { return governing_; }
-  /// Adds the energies at t_n, by part.
+  /// Elements deleted so far, and the internal energy they took with them.
+  std::int64_t deleted() const;
+  double eroded_energy() const;
+  /// Adds the energies at t_n of the elements that are left, by part.
   void add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const;
 
  private:
@@ -128,6 +132,7 @@ class TileElements {
     return history_.data() + history_begin_[tile] + element / block_lanes * size * block_lanes + element % block_lanes;
   }
   Place find(Index element) const;
+  void count_deleted(std::size_t tile);
   void run_tile(std::size_t tile, const State& state, AlignedVector<double>& scratch);
   [[noreturn]] void report_broken(const Model& model, const State& state, Index element, const std::string& fault) const;
 
@@ -142,6 +147,8 @@ class TileElements {
   AlignedVector<double> watched_force_;        ///< TileWork::element_force of the watched tiles
   std::vector<std::size_t> watched_begin_;    ///< by tile, into watched_force_; npos = nobody asks; empty = of no tile
   std::vector<double> internal_, hourglass_;  ///< energies, by tile
+  std::vector<double> eroded_;                ///< internal energies of deleted elements, likewise
+  std::vector<std::int64_t> deleted_;
   std::vector<Outcome> outcome_;              ///< by tile
   std::vector<AlignedVector<double>> scratch_; ///< by thread
   std::vector<Index> place_;                  ///< by element of the model: block * lanes + lane, or none

@@ -54,6 +54,8 @@ std::string AsciiWriter::text_of(const Snapshot& s) {
       return deforc_text(s);
     case OutputFile::secforc:
       return secforc_text(s);
+    case OutputFile::elout:
+      return elout_text(s);
     default:
       break;
   }

@@ -40,5 +40,6 @@ std::string bndout_text(const Snapshot& s);
 std::string spcforc_text(const Snapshot& s);
 std::string deforc_text(const Snapshot& s);
 std::string secforc_text(const Snapshot& s);
+std::string elout_text(const Snapshot& s);
 
 }  // namespace kardan

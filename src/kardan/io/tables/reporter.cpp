@@ -9,7 +9,8 @@ namespace kardan {
 const std::vector<OutputFile>& Reporter::files() {
   static const std::vector<OutputFile> all = {OutputFile::glstat,  OutputFile::matsum,  OutputFile::nodout,
                                               OutputFile::rbdout,  OutputFile::jntforc, OutputFile::bndout,
-                                              OutputFile::spcforc, OutputFile::deforc,  OutputFile::secforc};
+                                              OutputFile::spcforc, OutputFile::deforc,  OutputFile::secforc,
+                                              OutputFile::elout};
   return all;
 }
 
@@ -42,6 +43,9 @@ Snapshot Reporter::take(OutputFile file, const Model& model, const State& state)
       break;
     case OutputFile::secforc:
       s.folders.push_back(secforc_folder(model, state));
+      break;
+    case OutputFile::elout:
+      s.folders = elout_folders(model, state);
       break;
     default:
       KARDAN_ASSERT(!"a file of Reporter::files()");

@@ -39,5 +39,7 @@ std::vector<Folder> bndout_folders(const Model& model, const State& state);
 Folder spcforc_folder(const Model& model, const State& state);
 Folder deforc_folder(const Model& model, const State& state);
 Folder secforc_folder(const Model& model, const State& state);
+/// /elout/solid and /elout/shell.
+std::vector<Folder> elout_folders(const Model& model, const State& state);
 
 }  // namespace kardan

@@ -99,6 +99,7 @@ class Builder {
   IdSpace sections{IdKind::other, "section", "*SECTION"};
   IdSpace materials{IdKind::material, "material", "*MAT"};
   IdSpace equations_of_state{IdKind::other, "equation of state", "*EOS"};
+  IdSpace shell_rules{IdKind::other, "integration rule", "*INTEGRATION_SHELL"};
   IdSpace hourglasses{IdKind::other, "hourglass record", "*HOURGLASS"};
   IdSpace curves{IdKind::curve, "curve", "*DEFINE_CURVE"};
   IdSpace tables{IdKind::curve, "table", "*DEFINE_TABLE"};
@@ -164,6 +165,7 @@ void build_inertia(Builder&, Block&);
 
 void build_part(Builder&, Block&);
 void build_section_shell(Builder&, Block&);
+void build_integration_shell(Builder&, Block&);
 void build_section_solid(Builder&, Block&);
 void build_section_beam(Builder&, Block&);
 void build_section_discrete(Builder&, Block&);

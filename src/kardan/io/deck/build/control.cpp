@@ -73,9 +73,20 @@ void read_shell(Builder& b, Block& block) {
   Control& c = b.model.control;
   c.shell_istupd = static_cast<int>(card.integer("istupd"));
   if (card.integer("bwc") != 0) c.shell_bwc = static_cast<int>(card.integer("bwc"));
-  b.ignored(card, "esort", "degenerate quadrilaterals stay what they are");
-  b.ignored(more, "intgrd", "Gauss points are used through the thickness");
+  if (card.integer("theory") != 0) c.shell_theory = static_cast<int>(card.integer("theory"));
+  c.shell_esort = static_cast<int>(card.integer("esort"));
+  if (c.shell_esort == 2) b.unsupported(card, "esort", "sorting triangles to the DKT formulation (ESORT = 2) is not available", "set ESORT = 1 (C0 triangles)");
+  c.shell_lobatto = more.present() && more.integer("intgrd") == 1;
+  if (more.present() && !more.is_default("rotascl") && more.real("rotascl") != 0)
+    b.unsupported(more, "rotascl", "a scale factor on the rotary inertia of shells is not available", "leave ROTASCL at 1");
+  for (const char* field : {"irnxx", "proj"}) b.ignored(card, field, "it has no effect on the formulations of this version");
+  b.ignored(card, "miter", "the plane stress condition is always iterated to the end");
   b.ignored(more, "lamsht", "laminated shell theory is not applied");
+  const Card update = block.next_optional("card2"), failure = block.next_optional("card3");
+  for (const char* field : {"pstupd", "sidt4tu"}) b.refuse_nonzero(update, field, "thickness change of some parts only", "leave it 0: all deformable shells");
+  for (const char* field : {"w_mode", "stretch"}) b.refuse_nonzero(update, field, "deletion of distorted shells", "leave it blank");
+  b.ignored(update, "icrq", "thickness and plastic strain are those of each element");
+  for (const char* field : {"nfail1", "nfail4"}) b.ignored(failure, field, "a distorted shell stops the run");
 }
 
 void read_relaxation(Builder& b, Block& block) {
@@ -105,6 +116,12 @@ void read_bulk_viscosity(Builder& b, Block& block) {
   b.model.control.bulk_q2 = Builder::real_or(card, "q2", 0.06);
   b.ignored(card, "type", "the standard bulk viscosity of solids is used");
   b.ignored(card, "btype", "beams have no bulk viscosity");
+}
+
+void read_output(Builder& b, Block& block) {
+  block.next("card0");
+  const Card card = block.next_optional("card1");
+  b.model.output.global_shell_axes = card.present() && card.integer("eocs") == 2;
 }
 
 }  // namespace
@@ -148,7 +165,8 @@ void build_control(Builder& b, Block& block) {
                                                       {"CONTROL_DYNAMIC_RELAXATION", read_relaxation},
                                                       {"CONTROL_SHELL", read_shell},
                                                       {"CONTROL_HOURGLASS", read_hourglass},
-                                                      {"CONTROL_BULK_VISCOSITY", read_bulk_viscosity}};
+                                                      {"CONTROL_BULK_VISCOSITY", read_bulk_viscosity},
+                                                      {"CONTROL_OUTPUT", read_output}};
   const auto reader = readers.find(block.keyword);
   if (reader != readers.end())
     reader->second(b, block);
@@ -174,7 +192,15 @@ void read_extent(Builder& b, Block& block) {
   const Card card = block.next("card0");
   const std::int64_t points = card.integer("maxint");
   b.model.output.maxint = points == 0 ? 3 : static_cast<int>(points);
-  b.model.output.strain_flag = static_cast<int>(card.integer("strflg"));
+  if (points < 0) card.warning("maxint", "is negative: the points in the plane of fully integrated shells are not written one by one, but their mean");
+  b.ignored(card, "strflg", "strain tensors are not written");
+  for (const char* field : {"neiph", "neips"}) b.ignored(card, field, "history variables other than the plastic strain are not written");
+  for (const char* field : {"sigflg", "epsflg", "rltflg", "engflg"}) b.ignored(card, field, "d3plot holds everything");
+  const Card more = block.next_optional("card1"), last = block.next_optional("card2");
+  b.ignored(more, "ieverp", "a file holds as many states as fit");
+  b.ignored(more, "dcomp", "all words are written");
+  for (const char* field : {"shge", "stssz"}) b.ignored(more, field, "hourglass energy and time step of elements are not written");
+  for (const char* field : {"hydro", "msscl", "therm", "nintsld"}) b.ignored(last, field, "not written");
 }
 
 }  // namespace

@@ -195,10 +195,6 @@ void build_shells(Builder& b, Block& block) {
     block.for_each("card0", [&](const Card& card) { add_shell(b, line, card); });
     return;
   }
-  if (offset) {
-    b.unsupported(block, "an offset of the shell's reference surface by element is not available",
-                  "leave _OFFSET out, or move the nodes");
-  }
   while (!block.at_end()) {
     const Card card = block.next("card0");
     const bool added = add_shell(b, line, card);
@@ -213,7 +209,10 @@ void build_shells(Builder& b, Block& block) {
         if (added) shells.thickness[static_cast<Index>(shells.size()) - 1] = t;
       }
     }
-    if (offset) block.next("offset");
+    if (offset) {
+      const double height = block.next("offset").real("offset", dimension::length);
+      if (added) shells.offset[static_cast<Index>(shells.size()) - 1] = height;
+    }
   }
 }
 

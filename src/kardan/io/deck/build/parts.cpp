@@ -1,5 +1,6 @@
 // *PART, *SECTION, *HOURGLASS.
 #include <array>
+#include <cmath>
 
 #include "kardan/io/deck/build/builder.hpp"
 
@@ -123,6 +124,27 @@ int integer_or(const Card& card, std::string_view field, int fallback) {
 
 }  // namespace
 
+void build_integration_shell(Builder& b, Block& block) {
+  while (!block.at_end()) {
+    const Card card = block.next("card0");
+    ShellRule rule;
+    rule.id = card.id("irid", IdKind::other);
+    rule.points = static_cast<int>(card.integer("nip"));
+    rule.equal = card.integer("esop") == 1;
+    if (rule.points < 1) card.error("nip", "found " + card.text("nip") + ", expected the number of points", "give NIP >= 1");
+    b.ignored(card, "failopt", "a shell is deleted when its points have failed, as the material says");
+    for (int i = 0; i < rule.points && !rule.equal && !block.at_end(); ++i) {
+      const Card point = block.next("card1");
+      rule.s.push_back(point.real("s"));
+      rule.weight.push_back(point.real("wf"));
+      b.refuse_nonzero(point, "pid", "a material of its own for a layer", "leave PID 0");
+      if (std::abs(rule.s.back()) > 1 || !(rule.weight.back() > 0)) point.error("s", "lies outside -1 to 1, or has no weight", "give -1 <= S <= 1 and WF > 0");
+    }
+    if (!rule.equal && static_cast<int>(rule.s.size()) != rule.points) card.error("nip", "has more points than cards follow", "give a card for each point");
+    if (b.shell_rules.enter(card, "irid", static_cast<Index>(b.model.shell_rules.size()))) b.model.shell_rules.push_back(std::move(rule));
+  }
+}
+
 void build_section_shell(Builder& b, Block& block) {
   while (!block.at_end()) {
     const std::string title = title_of(block);
@@ -134,11 +156,17 @@ void build_section_shell(Builder& b, Block& block) {
     Section* section = new_section(b, title, card, ElementKind::shell);
     if (section == nullptr) continue;
     ShellSection& s = section->shell;
-    s.elform = integer_or(card, "elform", 2);
+    s.elform = static_cast<int>(card.integer("elform"));
+    if (card.blank("elform") || s.elform == 0) s.elform = b.model.control.shell_theory;
     s.shrf = Builder::real_or(card, "shrf", 1.0);
     s.nip = integer_or(card, "nip", 2);
-    if (card.real("qr_irid") < 0)
-      b.unsupported(card, "qr_irid", "an integration rule of *INTEGRATION is not available", "use NIP");
+    if (const std::int64_t rule = card.integer("qr_irid"); rule < 0) {
+      s.rule = b.shell_rules.find(-rule);
+      if (s.rule == none) card.error("qr_irid", "rule " + std::to_string(-rule) + " is not defined", "define it by *INTEGRATION_SHELL");
+    } else if (rule != 0) {
+      b.unsupported(card, "qr_irid", "the quadrature rule " + card.text("qr_irid") + " is not available", "use 0, or *INTEGRATION_SHELL");
+    }
+    if (card.integer("setyp") > 1) b.unsupported(card, "setyp", "the section type " + card.text("setyp") + " is not available", "use SETYP = 1");
     s.thickness = {sizes.real("t1", dimension::length), sizes.real("t2", dimension::length),
                    sizes.real("t3", dimension::length), sizes.real("t4", dimension::length)};
     for (std::size_t i = 1; i < 4; ++i) {
