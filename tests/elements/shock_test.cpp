@@ -45,7 +45,7 @@ Shocked drive(const EquationOfState& eos, double density, double piston, double 
     force = now;
   }
   EXPECT_GT(force, 0);
-  b.elements->account(b.model, b.state);
+  b.look();
   const auto at = [&](int cell) { return b.state.nodes.x[static_cast<std::size_t>(cell)].x; };
   Shocked s;
   // Far from the heated cells at the piston and from the front.
