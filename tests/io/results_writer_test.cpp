@@ -143,14 +143,14 @@ TEST(ResultsWriter, BinaryChoosesTheFormat) {
   m.output.requests = {{OutputFile::glstat, {0.5, 1, none}},
                        {OutputFile::matsum, {0.5, 2, none}},
                        {OutputFile::rbdout, {0.5, 3, none}},
-                       {OutputFile::elout, {0.5, 0, none}},
+                       {OutputFile::abstat, {0.5, 0, none}},
                        {OutputFile::nodout, {0.0, 3, none}}};
   const auto directory = output_directory();
   State s = make_state(m);
   ResultsWriter writer(m, s, directory, {});
   run(m, s, writer, 1.0, 4);
   EXPECT_FALSE(writer.defaulted());
-  EXPECT_THAT(writer.unwritten(), ::testing::ElementsAre(OutputFile::elout));
+  EXPECT_THAT(writer.unwritten(), ::testing::ElementsAre(OutputFile::abstat));
   EXPECT_TRUE(std::filesystem::exists(directory / "glstat"));
   EXPECT_FALSE(std::filesystem::exists(directory / "matsum"));
   EXPECT_TRUE(std::filesystem::exists(directory / "rbdout"));

@@ -47,7 +47,7 @@ TEST(Keyword, UnknownOptionIsAnError) {
 }
 
 TEST(Keyword, NotNeededIsNamedOnce) {
-  Read read("*CONTROL_OUTPUT\n1\n*CONTROL_OUTPUT\n1\n*DATABASE_ELOUT\n1.0\n");
+  Read read("*CONTROL_CPU\n1\n*CONTROL_CPU\n1\n*DATABASE_SLEOUT\n1.0\n");
   EXPECT_TRUE(read.diagnostics.ok());
   EXPECT_EQ(read.diagnostics.all().size(), 2u);
   EXPECT_EQ(read.diagnostics.all()[0].severity, Severity::notice);
