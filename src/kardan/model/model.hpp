@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kardan/base/diagnostics.hpp"
+#include "kardan/model/contact.hpp"
 #include "kardan/model/control.hpp"
 #include "kardan/model/curve.hpp"
 #include "kardan/model/entities.hpp"
@@ -65,6 +66,8 @@ struct Model {
   std::vector<PrescribedMotion> prescribed_motions;
   std::vector<SinglePointConstraint> constraints;
   std::vector<InitialVelocity> initial_velocities;
+
+  std::vector<RigidWall> rigid_walls;
 
   Control control;
   OutputControl output;

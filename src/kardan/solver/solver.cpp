@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kardan/contact/rigid_wall.hpp"
 #include "kardan/elements/element_system.hpp"
 #include "kardan/loads/load_system.hpp"
 #include "kardan/solver/node_mover.hpp"
@@ -69,6 +70,7 @@ void Solver::set_up(const SolverOptions& options, Diagnostics& diagnostics) {
   loads_ = std::make_unique<LoadSystem>(model_, state_, diagnostics);  // takes out velocities against supports
   if (!diagnostics.ok()) return;
   rigid_->set_initial_velocities(model_, state_, diagnostics);
+  walls_ = std::make_unique<RigidWalls>(model_, state_, diagnostics);
   nodes_ = std::make_unique<NodeMover>(model_, state_);
 
   for (std::size_t i = 0; i < state_.nodes.x.size(); ++i) {
@@ -153,6 +155,7 @@ bool Solver::step() {
 }
 
 void Solver::kick() {
+  walls_->before_kick(state_);
   nodes_->kick(model_, state_, *elements_, looked_at_);
   timers_.lap(Phase::nodes);
   rigid_->gather_forces(state_);
@@ -160,6 +163,7 @@ void Solver::kick() {
   timers_.lap(Phase::loads);
   rigid_->kick(model_, state_);
   timers_.lap(Phase::rigid);
+  walls_->hold(state_);
   loads_->constrain_velocities(model_, state_);
 }
 
@@ -193,6 +197,7 @@ void Solver::account() {
   if (!looked_at_) return;
   elements_->account(model_, state_);
   rigid_->account(model_, state_);
+  walls_->account(state_);
   nodes_->account(state_);
   if (state_.clock.cycle == 0) energy.initial = energy.total();
   if (end_energy > 0 && stop_ == StopReason::running && std::abs(energy.ratio() - 1) * 100 > end_energy) {

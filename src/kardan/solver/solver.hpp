@@ -24,6 +24,7 @@
 namespace kardan {
 
 class ElementSystem;
+class RigidWalls;
 class LoadSystem;
 class NodeMover;
 
@@ -90,6 +91,7 @@ class Solver {
   std::unique_ptr<ElementSystem> elements_;
   std::unique_ptr<LoadSystem> loads_;
   std::unique_ptr<RigidSystem> rigid_;
+  std::unique_ptr<RigidWalls> walls_;
   std::unique_ptr<NodeMover> nodes_;
   std::unique_ptr<TimeStepRule> rule_, relaxation_rule_;
   ClockHand clock_hand_;

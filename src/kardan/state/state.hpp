@@ -133,6 +133,14 @@ struct SectionReport {
   Vec3 centroid;       ///< mean of the nodes' positions, global
 };
 
+/// RWFORC of one rigid wall at t_n.
+struct WallReport {
+  UserId id = 0;
+  Vec3 force;               ///< of the nodes on the wall
+  double normal_force = 0;  ///< pressing positive
+  double energy = 0;        ///< taken from the nodes so far
+};
+
 /// Energies at t_n by the classes GLSTAT prints, per part where a part has it.
 ///
 /// Accounting, every cycle between kick and drift: the solver first calls begin(), which zeroes what is a snapshot at t_n;
@@ -177,6 +185,7 @@ struct State {
   std::vector<DiscreteReport> discretes;     ///< by discrete element
   std::vector<ReactionReport> reactions;
   std::vector<SectionReport> sections;       ///< by cross section, valid between kick and drift of a cycle that is looked at
+  std::vector<WallReport> walls;             ///< by rigid wall of the model
   EnergyLedger energy;
   ElementResults results;
   TimeStepOwner step_owner;

@@ -50,6 +50,8 @@ std::string AsciiWriter::text_of(const Snapshot& s) {
       return bndout_text(s);
     case OutputFile::spcforc:
       return spcforc_text(s);
+    case OutputFile::rwforc:
+      return rwforc_text(s);
     case OutputFile::deforc:
       return deforc_text(s);
     case OutputFile::secforc:
@@ -69,6 +71,8 @@ void AsciiWriter::append(const Snapshot& s, const std::string& text) {
     if (has_legend(s.file)) file_.write(legend_text(s));
     if (s.file == OutputFile::secforc) file_.write(secforc_head);
     if (s.file == OutputFile::spcforc) file_.write(" single point constraint forces\n\n");
+    if (s.file == OutputFile::rwforc)
+      file_.write("\n\n    time       wall#   normal-force    x-force        y-force        z-force\n");
     headed_ = true;
   }
   file_.write(text);

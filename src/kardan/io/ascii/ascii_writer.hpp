@@ -38,6 +38,7 @@ std::string jntforc_text(const Snapshot& s);
 std::string jntsep_text(const Snapshot& s);
 std::string bndout_text(const Snapshot& s);
 std::string spcforc_text(const Snapshot& s);
+std::string rwforc_text(const Snapshot& s);
 std::string deforc_text(const Snapshot& s);
 std::string secforc_text(const Snapshot& s);
 std::string elout_text(const Snapshot& s);

@@ -1,4 +1,4 @@
-// JNTFORC, BNDOUT, SPCFORC, DEFORC and Kardan's own JNTSEP. The layouts are those of the ASCII files that LSTC's binout
+// JNTFORC, BNDOUT, SPCFORC, RWFORC, DEFORC and Kardan's own JNTSEP. The layouts are those of the ASCII files that LSTC's binout
 // translator prints.
 #include <fmt/format.h>
 
@@ -156,6 +156,16 @@ std::string spcforc_text(const Snapshot& s) {
   }
   put(text, "             force resultants   ={:14.4E}{:14.4E}{:14.4E}\n", f["x_resultant"][0], f["y_resultant"][0],
       f["z_resultant"][0]);
+  return text;
+}
+
+std::string rwforc_text(const Snapshot& s) {
+  const Folder& f = s.folders.at(0);
+  const auto& walls = f.meta("setid");
+  std::string text;
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    put(text, "{:12.5E}{:8d}{:15.6E}{:15.6E}{:15.6E}{:15.6E}\n", s.time, walls[i], f["normal_force"][i], f["x_force"][i], f["y_force"][i],
+        f["z_force"][i]);
   return text;
 }
 

@@ -1,4 +1,4 @@
-// JNTFORC, BNDOUT, SPCFORC, DEFORC and SECFORC.
+// JNTFORC, BNDOUT, SPCFORC, RWFORC, DEFORC and SECFORC.
 #include <array>
 #include <numbers>
 
@@ -170,6 +170,25 @@ Folder spcforc_folder(const Model& model, const State& state) {
   f.add_vectors("x_moment", "y_moment", "z_moment", n, [&](std::size_t i) { return chosen[i]->moment; });
   if (n == 0) return f;
   f.add_vectors("x_resultant", "y_resultant", "z_resultant", 1, [&](std::size_t) { return total; });
+  return f;
+}
+
+Folder rwforc_folder(const Model& model, const State& state) {
+  const std::size_t n = state.walls.size();
+  Folder f;
+  f.path = "/rwforc/forces";
+  IntegerColumn ids{"ids", {}}, walls{"setid", {}};
+  for (std::size_t i = 0; i < n; ++i) {
+    ids.values.push_back(state.walls[i].id);
+    walls.values.push_back(static_cast<std::int64_t>(i) + 1);
+    if (model.rigid_walls[i].title.empty()) continue;
+    f.legend_ids.push_back(state.walls[i].id);
+    f.legend.push_back(model.rigid_walls[i].title);
+  }
+  f.metadata = {std::move(ids), std::move(walls)};
+  f.add_vectors("x_force", "y_force", "z_force", n, [&](std::size_t i) { return state.walls[i].force; });
+  f.add_scalars("normal_force", n, [&](std::size_t i) { return state.walls[i].normal_force; });
+  f.add_scalars("energy", n, [&](std::size_t i) { return state.walls[i].energy; });
   return f;
 }
 

@@ -10,7 +10,7 @@ const std::vector<OutputFile>& Reporter::files() {
   static const std::vector<OutputFile> all = {OutputFile::glstat,  OutputFile::matsum,  OutputFile::nodout,
                                               OutputFile::rbdout,  OutputFile::jntforc, OutputFile::bndout,
                                               OutputFile::spcforc, OutputFile::deforc,  OutputFile::secforc,
-                                              OutputFile::elout};
+                                              OutputFile::elout,   OutputFile::rwforc};
   return all;
 }
 
@@ -46,6 +46,9 @@ Snapshot Reporter::take(OutputFile file, const Model& model, const State& state)
       break;
     case OutputFile::elout:
       s.folders = elout_folders(model, state);
+      break;
+    case OutputFile::rwforc:
+      s.folders.push_back(rwforc_folder(model, state));
       break;
     default:
       KARDAN_ASSERT(!"a file of Reporter::files()");

@@ -37,6 +37,7 @@ std::vector<Folder> jntforc_folders(const Model& model, const State& state, cons
 /// /bndout/velocity/nodes and /bndout/velocity/rigidbodies.
 std::vector<Folder> bndout_folders(const Model& model, const State& state);
 Folder spcforc_folder(const Model& model, const State& state);
+Folder rwforc_folder(const Model& model, const State& state);
 Folder deforc_folder(const Model& model, const State& state);
 Folder secforc_folder(const Model& model, const State& state);
 /// /elout/solid and /elout/shell.

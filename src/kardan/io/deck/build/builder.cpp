@@ -102,7 +102,8 @@ const std::unordered_map<std::string, Entry>& table() {
       {"CONSTRAINED_NODE_SET", {rest, build_node_set_constraint}},
       {"CONSTRAINED_LINEAR_GLOBAL", {rest, build_linear_constraint}},
       {"CONSTRAINED_LINEAR_LOCAL", {rest, build_linear_constraint}},
-      {"CONSTRAINED_INTERPOLATION", {rest, build_interpolation}}};
+      {"CONSTRAINED_INTERPOLATION", {rest, build_interpolation}},
+      {"RIGIDWALL_PLANAR", {rest, build_rigid_wall}}};
   return entries;
 }
 

@@ -221,6 +221,7 @@ void build_generalized_weld(Builder&, Block&);
 void build_node_set_constraint(Builder&, Block&);
 void build_linear_constraint(Builder&, Block&);
 void build_interpolation(Builder&, Block&);
+void build_rigid_wall(Builder&, Block&);
 
 void build_title(Builder&, Block&);
 void build_control(Builder&, Block&);
