@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
     for (const auto& [variant, law] : bench::laws()) {
       c.variant = variant;
       c.model.materials[0].law = law;
-      c.work.bytes = 2 * 8.0 * static_cast<double>(solid_history::law + bench::law_values(law)) + bench::bytes_of_nodes(8, nodes_a_tile, 3);
+      c.work.bytes = 2 * 8.0 * static_cast<double>(one_point_hexahedron.history_size(bench::law_values(law))) + bench::bytes_of_nodes(8, nodes_a_tile, 3);
       c.work.flops = *flops++;
       report.add(c, options.quick ? 1.0 : 4.0);
     }

@@ -83,6 +83,10 @@ void say_end(const Solver& solver, const std::string& failure, double seconds, L
   log.line(fmt::format("{}: {} at t = {:g} after {} cycles and {:.2f} s", kind, to_string(solver.stop_reason()), clock.time,
                        clock.cycle, seconds));
   log.line(energy_verdict(solver.model(), solver.state().energy));
+  if (solver.model().control.time_step.dt2ms != 0) {
+    const AddedMass& mass = solver.state().added_mass;
+    log.line(fmt::format("mass scaling: {:.6g} added to {:.6g} ({:.3f} %)", mass.added, mass.physical, mass.percent()));
+  }
 }
 
 }  // namespace

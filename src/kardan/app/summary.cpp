@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 const char* key(StopReason reason) {
-  static constexpr const char* keys[] = {"running", "end_time", "end_cycle", "min_step", "energy", "interrupted", "broken"};
+  static constexpr const char* keys[] = {"running", "end_time", "end_cycle", "min_step", "mass", "energy", "interrupted", "broken"};
   return keys[static_cast<int>(reason)];
 }
 
@@ -33,6 +33,7 @@ json energies(const EnergyLedger& e) {
           {"sliding", e.sliding},
           {"joint", e.joint},
           {"stopper", e.stopper},
+          {"stonewall", e.stonewall},
           {"external_work", e.external_work},
           {"initial", e.initial},
           {"initial_joint_loss", e.initial_joint_loss},
@@ -102,6 +103,8 @@ json summarize(const Solver& solver, const RunRecord& record) {
                       {"bodies", state.bodies.motion.size()}, {"joints", model.joints.size()}};
   summary["wall_seconds"] = wall_seconds(solver, record);
   summary["energies"] = energies(state.energy);
+  if (model.control.time_step.dt2ms != 0)
+    summary["added_mass"] = {{"mass", state.added_mass.added}, {"percent", state.added_mass.percent()}};
   summary["parts"] = parts(model, state.energy);
   const RigidSystem::Separation separation = solver.rigid().largest_separation();
   summary["joint_separation"] = {{"distance", separation.distance}, {"angle", separation.angle}};

@@ -12,6 +12,7 @@
 #include "kardan/elements/discrete/discrete_forces.hpp"
 #include "kardan/elements/geometry.hpp"
 #include "kardan/elements/lumped_mass.hpp"
+#include "kardan/elements/mass_scaling.hpp"
 #include "kardan/elements/section_forces.hpp"
 #include "kardan/elements/shell/shell_forces.hpp"
 #include "kardan/elements/solid/solid_forces.hpp"
@@ -42,11 +43,20 @@ struct ElementSystem::Impl {
         discrete_beams(model, state, diagnostics),
         discretes(model, state, diagnostics) {}
 
+  /// f(TileElements&) for all elements that are tiled.
+  template <class F>
+  void for_each_tiles(F&& f) {
+    for (TileElements* elements : shells.elements()) f(*elements);
+    f(beams.elements());
+    for (TileElements* elements : solids.elements()) f(*elements);
+  }
+
   ShellForces shells;
   SolidForces solids;
   BeamForces beams;
   DiscreteBeams discrete_beams;
   DiscreteForces discretes;
+  MassScaling mass_scaling;
   std::unique_ptr<SectionForces> sections;  ///< made once the elements are complete
 };
 
@@ -55,12 +65,15 @@ ElementSystem::ElementSystem(const Model& model, State& state, Diagnostics& diag
   impl_ = std::make_unique<Impl>(model, state, diagnostics);
   if (diagnostics.ok()) {
     impl_->sections = std::make_unique<SectionForces>(
-        model, std::array<std::vector<TileElements*>, 3>{impl_->shells.elements(), {&impl_->solids.elements()}, {&impl_->beams.elements()}});
+        model, std::array<std::vector<TileElements*>, 3>{impl_->shells.elements(), impl_->solids.elements(), {&impl_->beams.elements()}});
   }
   state.discretes.assign(model.discretes.size(), DiscreteReport{});
   state.results.beam.resize(model.beams.size());
   state.energy.part_internal.assign(model.parts.size(), 0.0);
   state.energy.part_hourglass.assign(model.parts.size(), 0.0);
+  if (model.control.time_step.dt2ms == 0 || !diagnostics.ok()) return;
+  impl_->mass_scaling.start(model, state);
+  impl_->for_each_tiles([&](TileElements& elements) { elements.prepare_mass_scaling(state); });
 }
 
 ElementSystem::~ElementSystem() = default;
@@ -73,6 +86,19 @@ void ElementSystem::internal_forces(const Model& model, State& state) {
   impl_->beams.internal_forces(model, state);
   impl_->discrete_beams.internal_forces(model, state);
   impl_->discretes.internal_forces(model, state);
+}
+
+const std::vector<NodeIndex>& ElementSystem::scale_masses(const Model& model, State& state) {
+  MassScaling& scaling = impl_->mass_scaling;
+  scaling.clear();
+  if (scaling.active(model, state)) {
+    impl_->for_each_tiles([&](TileElements& elements) { scaling.scale(model, state, elements); });
+  }
+  return scaling.changed();
+}
+
+void ElementSystem::erode_below(double step) {
+  impl_->for_each_tiles([step](TileElements& elements) { elements.erode_below(step); });
 }
 
 void ElementSystem::add_forces(State& state, NodeIndex begin, NodeIndex end) const {
@@ -133,9 +159,9 @@ void ElementSystem::account(const Model& model, State& state) {
   impl_->beams.report(state, state.results.beam);
   impl_->discrete_beams.report(state.results.beam);
   impl_->sections->report(model, state);
-  energy.eroded_internal = impl_->shells.eroded_energy() + impl_->solids.elements().eroded_energy() + impl_->beams.elements().eroded_energy();
+  energy.eroded_internal = impl_->shells.eroded_energy() + impl_->solids.eroded_energy() + impl_->beams.elements().eroded_energy();
   state.results.deleted_shells = impl_->shells.deleted();
-  state.results.deleted_solids = impl_->solids.elements().deleted();
+  state.results.deleted_solids = impl_->solids.deleted();
   state.results.deleted_beams = impl_->beams.elements().deleted();
   energy.internal = std::accumulate(energy.part_internal.begin(), energy.part_internal.end(), 0.0);
   energy.hourglass = std::accumulate(energy.part_hourglass.begin(), energy.part_hourglass.end(), 0.0);

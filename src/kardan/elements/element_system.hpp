@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "kardan/base/diagnostics.hpp"
 #include "kardan/elements/governing.hpp"
@@ -28,6 +29,11 @@ class ElementSystem {
   /// cycle.
   /// @throws RunError naming the element whose area vanished or whose force is not finite.
   void internal_forces(const Model& model, State& state);
+
+  /// Right after internal_forces(): mass scaling (mass_scaling.hpp). @return nodes whose mass or rotary inertia has changed, with repeats
+  const std::vector<NodeIndex>& scale_masses(const Model& model, State& state);
+  /// From now on solids whose stable step (without TSSFAC) is below `step` are deleted where *CONTROL_TIMESTEP ERODE asks for it.
+  void erode_below(double step);
 
   /// Adds the forces of the tiles on the nodes begin <= n < end to state.nodes.force and .moment. Several threads may do so for
   /// nodes of their own.

@@ -59,7 +59,7 @@ class PartTable {
   std::vector<PartProperties> entries_;
 };
 
-/// Adds equal shares of `mass` to the distinct nodes among the first `count`; returns the share.
+/// Adds equal shares of `mass` to the distinct nodes; returns the share.
 template <std::size_t N>
 double share_mass(std::vector<double>& nodal, const std::array<NodeIndex, N>& nodes, int distinct, double mass) {
   const double share = mass / distinct;
@@ -72,6 +72,13 @@ double share_mass(std::vector<double>& nodal, const std::array<NodeIndex, N>& no
   return share;
 }
 
+double shell_mass(const ShellSection& section, double density, double area, double thickness) {
+  return area * (thickness * density + section.mass_per_area);
+}
+
+/// Rotary inertia of a shell's node whose mass is `mass`.
+double shell_inertia(double mass, double area, double thickness) { return mass * std::max(thickness * thickness / 12.0, area / 8.0); }
+
 void add_shells(const Model& model, State& state, Diagnostics& diagnostics) {
   const ShellElements& shells = model.shells;
   const PartTable parts(model, ElementKind::shell, shells.part, diagnostics);
@@ -81,7 +88,7 @@ void add_shells(const Model& model, State& state, Diagnostics& diagnostics) {
     const auto& nodes = shells.nodes[e];
     const double area = shell_area(gather_coordinates(model.nodes.x, nodes));
     const double thickness = mean_thickness(model, static_cast<Index>(e));
-    const double mass = area * (thickness * part.bulk.density + part.section->shell.mass_per_area);
+    const double mass = shell_mass(part.section->shell, part.bulk.density, area, thickness);
     if (!(area > 0) || !(thickness > 0)) {
       diagnostics.error("shell " + std::to_string(shells.id[e]) + " has " + (area > 0 ? "no thickness" : "no area"),
                         area > 0 ? "give T1 of its section" : "check the coordinates of its nodes", "*ELEMENT_SHELL");
@@ -91,7 +98,7 @@ void add_shells(const Model& model, State& state, Diagnostics& diagnostics) {
     const double share = share_mass(state.nodes.mass, nodes, triangle ? 3 : 4, mass);
     if (part.rigid) continue;
     state.energy.part_mass[static_cast<std::size_t>(shells.part[e])] += mass;
-    const double inertia = share * std::max(thickness * thickness / 12.0, area / 8.0);
+    const double inertia = shell_inertia(share, area, thickness);
     for (std::size_t a = 0; a < (triangle ? 3u : 4u); ++a) state.nodes.inertia[static_cast<std::size_t>(nodes[a])] += inertia;
   }
 }
@@ -202,6 +209,27 @@ BeamLump beam_lump(const Model& model, Index beam, double density) {
   const double radius_square = std::max(moments.ss, moments.tt) / beam_area(section) + share * length * length;
   const double scaled = mass * weld_mass_factor(model, beam, length);
   return {scaled, scaled * radius_square, scaled - mass};
+}
+
+NodeShare node_share(const Model& model, ElementKind kind, Index element) {
+  const auto e = static_cast<std::size_t>(element);
+  const PartIndex own_part = kind == ElementKind::shell ? model.shells.part[e] : kind == ElementKind::solid ? model.solids.part[e] : model.beams.part[e];
+  const Part& part = model.parts[static_cast<std::size_t>(own_part)];
+  const double density = bulk_properties(model.materials[static_cast<std::size_t>(part.material)]).density;
+  if (kind == ElementKind::beam) {
+    const BeamLump lump = beam_lump(model, element, density);
+    return {lump.mass, lump.inertia, 2};
+  }
+  if (kind == ElementKind::solid) {
+    const auto& nodes = model.solids.nodes[e];
+    const int count = distinct_nodes(nodes);
+    return {std::abs(solid_volume(gather_coordinates(model.nodes.x, nodes), nodes)) * density / count, 0, count};
+  }
+  const auto& nodes = model.shells.nodes[e];
+  const int count = is_triangle(nodes) ? 3 : 4;
+  const double area = shell_area(gather_coordinates(model.nodes.x, nodes)), thickness = mean_thickness(model, element);
+  const double share = shell_mass(model.sections[static_cast<std::size_t>(part.section)].shell, density, area, thickness) / count;
+  return {share, shell_inertia(share, area, thickness), count};
 }
 
 void add_lumped_masses(const Model& model, State& state, Diagnostics& diagnostics) {

@@ -38,6 +38,14 @@ struct BeamLump {
 };
 BeamLump beam_lump(const Model& model, Index beam, double density);
 
+/// What an element gives to each of its distinct nodes.
+struct NodeShare {
+  double mass = 0, inertia = 0;  ///< rotary inertia: of deformable shells and beams
+  int nodes = 0;                 ///< distinct ones
+};
+/// Of a shell, solid or beam of a part that has section and material; as add_lumped_masses() does it.
+NodeShare node_share(const Model& model, ElementKind kind, Index element);
+
 /// Adds to state.nodes.mass the lumped mass of every shell, solid, beam, *ELEMENT_MASS and *ELEMENT_INERTIA, rigid or not,
 /// in equal shares to the element's distinct nodes; and to state.nodes.inertia the rotary inertia of deformable shells and beams.
 /// Parts that cannot have a mass (no section, no material, no thickness) become errors.

@@ -23,6 +23,7 @@ struct TimeStepControl {
   double scale = 0.9;        ///< TSSFAC
   int isdo = 0;
   double dt2ms = 0;
+  bool scale_mass_once = false;  ///< MS1ST
   CurveIndex limit = none;   ///< LCTM: largest dt against time
   int erode = 0;
 };
@@ -79,6 +80,7 @@ struct Control {
   int shell_theory = 2;       ///< formulation of sections without ELFORM
   int shell_esort = 0;        ///< 1: triangles of quadrilateral formulations are C0 triangles (ELFORM 4)
   bool shell_lobatto = false; ///< INTGRD = 1: 3 to 10 points through the thickness by Lobatto's rule
+  int solid_esort = 0;       ///< *CONTROL_SOLID: 1 degenerate solids become tetrahedra (10) and pentahedra (15)
 };
 
 }  // namespace kardan

@@ -13,6 +13,7 @@ const char* to_string(StopReason reason) {
                                           "end time reached (ENDTIM)",
                                           "cycle limit reached (ENDCYC)",
                                           "time step below its limit (DTMIN)",
+                                          "added mass above its limit (ENDMAS)",
                                           "energy ratio out of its limits (ENDENG)",
                                           "interrupted",
                                           "broken"};

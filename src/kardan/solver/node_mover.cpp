@@ -163,6 +163,16 @@ void NodeMover::not_finite(const Model& model, const State& state) const {
       count, count == 1 ? "" : "s"));
 }
 
+void NodeMover::take_masses(const State& state, const std::vector<NodeIndex>& nodes) {
+  for (const NodeIndex node : nodes) {
+    const auto free = std::lower_bound(free_.begin(), free_.end(), node);
+    if (free == free_.end() || *free != node) continue;
+    const auto k = static_cast<std::size_t>(free - free_.begin());
+    inverse_mass_[k] = 1 / state.nodes.mass[at(node)];
+    inverse_inertia_[k] = state.nodes.inertia[at(node)] > 0 ? 1 / state.nodes.inertia[at(node)] : 0.0;
+  }
+}
+
 void NodeMover::settle(State& state) const {
   NodeState& nodes = state.nodes;
   const double kick = state.clock.kick(), share = state.clock.share_before();

@@ -25,6 +25,8 @@ class NodeMover {
   /// forces and moments stay; otherwise those of the free nodes are zero afterwards, ready for the next cycle.
   /// @throws RunError naming a node whose velocity would no longer be finite; such nodes keep theirs of before.
   void kick(const Model& model, State& state, const ElementSystem& elements, bool looked_at);
+  /// Takes over masses and rotary inertias of nodes that have changed.
+  void take_masses(const State& state, const std::vector<NodeIndex>& nodes);
   /// In a cycle that is looked at, after the velocities were constrained: v_now, a, omega_now and alpha at t_n.
   void settle(State& state) const;
   /// After a cycle that broke: v_now and omega_now are the last velocities known, a and alpha zero.

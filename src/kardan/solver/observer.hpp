@@ -21,6 +21,7 @@ enum class StopReason {
   end_time,     ///< ENDTIM
   end_cycle,    ///< ENDCYC
   min_step,     ///< DTMIN
+  mass,         ///< ENDMAS: mass scaling has added more than that
   energy,       ///< ENDENG: the energy ratio left its limits
   interrupted,  ///< Solver::request_stop()
   broken        ///< RunError: a value that is not finite, |omega| dt > 1, …
@@ -29,7 +30,7 @@ enum class StopReason {
 const char* to_string(StopReason reason);
 /// The run did what the deck asked for: exit code 0.
 inline bool normal(StopReason reason) {
-  return reason == StopReason::end_time || reason == StopReason::end_cycle || reason == StopReason::min_step;
+  return reason == StopReason::end_time || reason == StopReason::end_cycle || reason == StopReason::min_step || reason == StopReason::mass;
 }
 
 /// What an observer sees beside the model and the state.

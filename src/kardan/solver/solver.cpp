@@ -126,6 +126,7 @@ bool Solver::step() {
     loads_->apply(model_, state_);
     timers_.lap(Phase::loads);
     elements_->internal_forces(model_, state_);
+    nodes_->take_masses(state_, elements_->scale_masses(model_, state_));
     timers_.lap(Phase::elements);
     choose_time_step(*rule_);
     stop_ = reason_to_stop();
@@ -185,7 +186,10 @@ void Solver::choose_time_step(const TimeStepRule& rule) {
                                state_.clock.time, state_.clock.cycle));
   state_.clock.dt = step_.dt;
   state_.step_owner = step_.owner;
-  if (state_.clock.cycle == 0) first_dt_ = step_.dt;
+  if (state_.clock.cycle > 0) return;
+  first_dt_ = step_.dt;
+  const TimeStepControl& control = model_.control.time_step;
+  if (control.erode % 10 == 1) elements_->erode_below(model_.control.termination.dt_min * first_dt_ / (control.scale > 0 ? control.scale : 0.9));
 }
 
 void Solver::account() {
@@ -210,6 +214,7 @@ StopReason Solver::reason_to_stop() const {
   const Termination& termination = model_.control.termination;
   if (state_.clock.time >= end_time_) return StopReason::end_time;
   if (termination.end_cycle > 0 && state_.clock.cycle >= termination.end_cycle) return StopReason::end_cycle;
+  if (state_.added_mass.percent() > termination.end_mass) return StopReason::mass;
   if (!step_.to_end && state_.clock.dt < termination.dt_min * first_dt_) return StopReason::min_step;
   if (stop_requested_.load(std::memory_order_relaxed)) return StopReason::interrupted;
   return StopReason::running;

@@ -176,6 +176,14 @@ struct EnergyLedger {
   }
 };
 
+/// Mass scaling (DT2MS of *CONTROL_TIMESTEP).
+struct AddedMass {
+  double physical = 0;  ///< of the whole model
+  double added = 0;     ///< so far; negative where DT2MS > 0 took some away
+
+  double percent() const { return physical > 0 ? 100 * added / physical : 0.0; }
+};
+
 struct State {
   Clock clock;
   NodeState nodes;
@@ -187,6 +195,7 @@ struct State {
   std::vector<SectionReport> sections;       ///< by cross section, valid between kick and drift of a cycle that is looked at
   std::vector<WallReport> walls;             ///< by rigid wall of the model
   EnergyLedger energy;
+  AddedMass added_mass;
   ElementResults results;
   TimeStepOwner step_owner;
   Registry registry;

@@ -56,7 +56,7 @@ TEST(Keyword, NotNeededIsNamedOnce) {
 
 TEST(Keyword, ContactStopsUnlessLeftOut) {
   const std::string text =
-      "*CONTACT_AUTOMATIC_SINGLE_SURFACE_ID\n1\n*RIGIDWALL_PLANAR\n1\n*AIRBAG_SIMPLE_PRESSURE_VOLUME\n1\n*CONTACT_"
+      "*CONTACT_AUTOMATIC_SINGLE_SURFACE_ID\n1\n*RIGIDWALL_PLANAR_MOVING\n1\n*AIRBAG_SIMPLE_PRESSURE_VOLUME\n1\n*CONTACT_"
       "FORCE_TRANSDUCER_PENALTY\n1\n*END";
   Read refused(text);
   EXPECT_EQ(refused.diagnostics.error_count(), 3u) << refused.messages();

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kardan/elements/hourglass.hpp"
+#include "kardan/elements/tiles/tile_elements.hpp"
 
 namespace kardan {
 
@@ -23,13 +24,6 @@ Legendre legendre(int n, double x) {
     p.now = next;
   }
   return p;
-}
-
-/// How many of an element's points through the thickness must fail before it is deleted.
-double failing_points(const ElementDeletion& deletion, int points) {
-  if (deletion.points == 0) return points;
-  const double count = deletion.points > 0 ? deletion.points : std::ceil(-deletion.points / 100 * points - 1e-9);
-  return std::clamp(count, 1.0, static_cast<double>(points));
 }
 
 void set_hourglass(const Model& model, const Part& part, const Law& law, double transverse, ShellProperties& p) {

@@ -9,90 +9,141 @@
 #include "kardan/elements/free_sides.hpp"
 #include "kardan/elements/geometry.hpp"
 #include "kardan/elements/hourglass.hpp"
-#include "kardan/elements/solid/solid_kernel.hpp"
 
 namespace kardan {
 
 namespace {
 
-constexpr int one_point = 1;
+/// ELFORM of *SECTION_SOLID.
+constexpr int one_point = 1, selective = 2, tetrahedra = 10, nodal_tetrahedra = 13, pentahedra = 15;
 
-SolidProperties properties_of(const Model& model, const Part& part, const Law& law) {
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+bool erodes(const Model& model) { return model.control.time_step.erode % 10 == 1; }
+
+SolidProperties properties_of(const Model& model, const Part& part, SolidShape shape, const Law& law, std::size_t points) {
   SolidProperties p;
   p.law = {law.constants.get(), law.update, law.history(), law.tensors};
   p.density = law.density;
   p.longitudinal = law.longitudinal;
   p.wave_speed = std::sqrt(law.longitudinal / law.density);
+  p.poissons_ratio = law.poissons_ratio;
+  p.nodal_pressure = model.sections[at(part.section)].solid.elform == nodal_tetrahedra;
+  p.erode = erodes(model);
+  p.failing_points = failing_points(law.deletion, static_cast<int>(points));
   const HourglassChoice h = hourglass_of(model, part);
   p.q1 = h.q1;
   p.q2 = h.q2;
-  p.stiffness_hourglass = h.stiffness();
-  p.hourglass = p.stiffness_hourglass ? h.membrane * law.longitudinal / 16 : h.membrane * p.density * p.wave_speed / 4;
+  if (h.type == 6 || shape == SolidShape::pentahedron) {
+    p.hourglass = SolidHourglass::assumed_strain;
+    p.hourglass_scale = h.membrane * law.shear;
+  } else if (h.stiffness()) {
+    p.hourglass = SolidHourglass::stiffness;
+    p.hourglass_scale = h.membrane * law.longitudinal / 16;
+  } else {
+    p.hourglass_scale = h.membrane * p.density * p.wave_speed / 4;
+  }
   return p;
 }
 
-/// Nodes of a solid as the trilinear map needs them. A tetrahedron N1 N2 N3 N4 N4 N4 N4 N4 would be half of itself (its
-/// face of four nodes is not flat); N1 N2 N3 N3 N4 N4 N4 N4 is all of it, with the constant gradients of the
-/// tetrahedron.
-std::array<NodeIndex, 8> mapped_nodes(const std::array<NodeIndex, 8>& nodes) {
-  if (distinct_nodes(nodes) != 4) return nodes;
-  std::array<NodeIndex, 4> corner{};
-  std::size_t count = 0;
-  for (const NodeIndex n : nodes) {
-    const auto end = corner.begin() + static_cast<std::ptrdiff_t>(count);
-    if (std::find(corner.begin(), end, n) == end) corner[count++] = n;
-  }
-  return {corner[0], corner[1], corner[2], corner[2], corner[3], corner[3], corner[3], corner[3]};
+/// Shape of a solid: four-node elements are tetrahedra whatever the formulation (the trilinear map would fill only half of them, and the
+/// gradients of all formulations are the same there); pentahedra stay hexahedra with repeated nodes unless they are to be sorted.
+SolidShape shape_of(const Model& model, std::size_t solid) {
+  const auto& nodes = model.solids.nodes[solid];
+  if (distinct_nodes(nodes) == 4) return SolidShape::tetrahedron;
+  const Index section = model.parts[at(model.solids.part[solid])].section;
+  const bool sorted = model.control.solid_esort == 1 ||
+                      (section != none && model.sections[at(section)].solid.elform == pentahedra);
+  return sorted && pentahedron_nodes(nodes) ? SolidShape::pentahedron : SolidShape::hexahedron;
 }
 
-TileElements cut(const Model& model) {
+TileElements cut(const Model& model, SolidShape shape) {
+  static constexpr const char* names[] = {"solids", "tetrahedra", "pentahedra"};
+  static constexpr std::size_t nodes_of[] = {8, 4, 6};
+  const std::size_t count = nodes_of[static_cast<std::size_t>(shape)];
   std::vector<Index> elements;
-  std::vector<NodeIndex> flat;
-  flat.reserve(model.solids.size() * 8);
+  std::vector<NodeIndex> flat(model.solids.size() * count, 0);
   for (std::size_t e = 0; e < model.solids.size(); ++e) {
-    const Part& part = model.parts[model.solids.part[e]];
-    if (part.section != none && part.material != none && !model.rigid_part(model.solids.part[e])) {
-      elements.push_back(static_cast<Index>(e));
-    }
-    const std::array<NodeIndex, 8> nodes = mapped_nodes(model.solids.nodes[e]);
-    flat.insert(flat.end(), nodes.begin(), nodes.end());
+    const Part& part = model.parts[at(model.solids.part[e])];
+    if (part.section == none || part.material == none || model.rigid_part(model.solids.part[e]) || shape_of(model, e) != shape) continue;
+    elements.push_back(static_cast<Index>(e));
+    const auto& nodes = model.solids.nodes[e];
+    const auto put = [&](const auto& own) { std::copy(own.begin(), own.end(), flat.begin() + static_cast<std::ptrdiff_t>(e * count)); };
+    if (shape == SolidShape::hexahedron) put(nodes);
+    if (shape == SolidShape::tetrahedron) put(*tetrahedron_nodes(nodes));
+    if (shape == SolidShape::pentahedron) put(*pentahedron_nodes(nodes));
   }
-  return TileElements({"solids", "solid", ElementKind::solid, model.solids.id, {elements, model.solids.part, flat, 8, model.nodes.x}, 3},
+  return TileElements({names[static_cast<std::size_t>(shape)], "solid", ElementKind::solid, model.solids.id,
+                       {elements, model.solids.part, flat, count, model.nodes.x}, 3},
                       model.nodes.size());
 }
 
 }  // namespace
 
 SolidForces::SolidForces(const Model& model, State& state, Diagnostics& diagnostics)
-    : elements_(cut(model)), laws_(model.parts.size()) {
-  bool good = true;
-  for (const PartIndex part : elements_.parts()) good = set_up_part(model, part, diagnostics) && good;
-  if (!good || elements_.empty()) return;
-  elements_.start(state);
-  start_histories(model);
+    : shapes_{Shape{cut(model, SolidShape::hexahedron), {}}, Shape{cut(model, SolidShape::tetrahedron), {}},
+              Shape{cut(model, SolidShape::pentahedron), {}}},
+      laws_(model.parts.size()),
+      nodal_pressure_(model.parts.size(), 0) {
+  bool good = true, any = false, deletable = false;
+  for (const SolidShape shape : {SolidShape::hexahedron, SolidShape::tetrahedron, SolidShape::pentahedron}) {
+    Shape& own = shapes_[static_cast<std::size_t>(shape)];
+    own.formulation.resize(model.parts.size());
+    any = any || !own.elements.empty();
+    for (const PartIndex part : own.elements.parts()) good = set_up_part(model, shape, part, diagnostics) && good;
+  }
+  if (!good || !any) return;
+  for (Shape& shape : shapes_) {
+    shape.elements.start(state);
+    start_histories(model, shape);
+    deletable = deletable || shape.elements.deletable();
+  }
+  TileElements& fours = shapes_[static_cast<std::size_t>(SolidShape::tetrahedron)].elements;
+  if (std::find(nodal_pressure_.begin(), nodal_pressure_.end(), 1) != nodal_pressure_.end()) {
+    fours.node_values().assign(fours.mesh().node.size(), 1.0);
+    nodal_volumes_.set_up(fours, nodal_pressure_, model.nodes.x);
+  }
   state.results.solid.stress.assign(model.solids.size(), StressVector{});
   state.results.solid.plastic_strain.assign(model.solids.size(), 0.0);
-  if (elements_.deletable()) state.results.solid.alive.assign(model.solids.size(), 1);
+  if (deletable) state.results.solid.alive.assign(model.solids.size(), 1);
 }
 
-void SolidForces::start_histories(const Model& model) {
-  elements_.for_each([&](Index solid, PartIndex part, double* own) {
-    const auto& nodes = model.solids.nodes[solid];
+void SolidForces::start_histories(const Model& model, Shape& shape) {
+  shape.elements.for_each([&](Index solid, PartIndex part, double* own) {
+    const SolidFormulation& f = *shape.formulation[at(part)];
+    const auto& nodes = model.solids.nodes[at(solid)];
     const double volume = solid_volume(gather_coordinates(model.nodes.x, nodes), nodes);
     own[solid_history::volume * block_lanes] = volume;
-    own[solid_history::size * block_lanes] = std::cbrt(volume);
-    const std::vector<double>& start = laws_[part].start;
-    for (std::size_t k = 0; k < start.size(); ++k) own[(solid_history::law + k) * block_lanes] = start[k];
+    own[solid_history::inverse_size * block_lanes] = 1 / std::cbrt(volume);
+    if (&f == &one_point_tetrahedron) own[solid_history::own * block_lanes] = 1;  // volume ratio of the nodes
+    const std::vector<double>& start = laws_[at(part)].start;
+    for (std::size_t p = 0; p < f.points; ++p) {
+      const std::size_t law = solid_history::stress(f.own_values, start.size(), p) + 6;
+      for (std::size_t k = 0; k < start.size(); ++k) own[(law + k) * block_lanes] = start[k];
+    }
   });
   const std::vector<std::uint8_t> faces = free_faces(model.solids);
-  elements_.scale_steps([&](Index solid, PartIndex part) {
-    return free_solid_factor(model, solid, faces[solid], {laws_[part].density, laws_[part].shear, laws_[part].longitudinal, 0});
+  shape.elements.scale_steps([&](Index solid, PartIndex part) {
+    const Law& law = laws_[at(part)];
+    return free_solid_factor(model, solid, faces[at(solid)], {law.density, law.shear, law.longitudinal, 0});
   });
 }
 
-bool SolidForces::set_up_part(const Model& model, PartIndex p, Diagnostics& diagnostics) {
-  const Part& part = model.parts[p];
-  const Section& section = model.sections[part.section];
+const SolidFormulation* SolidForces::formulation_of(SolidShape shape, int elform, int esort) {
+  switch (shape) {
+    case SolidShape::hexahedron:
+      return elform == one_point ? &one_point_hexahedron : elform == selective ? &full_hexahedron : nullptr;
+    case SolidShape::tetrahedron:
+      return elform == pentahedra && esort != 1 ? nullptr : &one_point_tetrahedron;
+    case SolidShape::pentahedron:
+      return elform == tetrahedra || elform == nodal_tetrahedra ? nullptr : &two_point_pentahedron;
+  }
+  return nullptr;
+}
+
+bool SolidForces::set_up_part(const Model& model, SolidShape shape, PartIndex p, Diagnostics& diagnostics) {
+  const Part& part = model.parts[at(p)];
+  const Section& section = model.sections[at(part.section)];
   bool good = true;
   const auto refuse = [&](const std::string& what, const std::string& cure, const char* keyword) {
     diagnostics.error("part " + std::to_string(part.id) + " has deformable solids of " + what +
@@ -100,40 +151,105 @@ bool SolidForces::set_up_part(const Model& model, PartIndex p, Diagnostics& diag
                       cure, keyword);
     good = false;
   };
-  std::optional<Law> law = make_law(model, part, LawUse::solid, 1.0, diagnostics);
-  if (!law) good = false;
   if (section.kind != ElementKind::solid) return false;  // the lumped masses have complained
-  if (section.solid.elform != one_point) {
-    refuse("ELFORM = " + std::to_string(section.solid.elform) + " (section " + std::to_string(section.id) + ")",
-           "use ELFORM = 1", "*SECTION_SOLID");
+  // A part of several shapes has one law: the kernels' properties point into it.
+  if (!laws_[at(p)].update) {
+    std::optional<Law> law = make_law(model, part, LawUse::solid, 1.0, diagnostics);
+    if (law) laws_[at(p)] = std::move(*law);
+    good = law.has_value();
   }
-  if (const int type = hourglass_of(model, part).type; type < 1 || type > 5) {
+  const int elform = section.solid.elform;
+  const std::string name = "ELFORM = " + std::to_string(elform) + " (section " + std::to_string(section.id) + ")";
+  static constexpr const char* shapes[] = {"hexahedra, or wedges that are not sorted (ESORT)", "tetrahedra", "pentahedra"};
+  if (elform != one_point && elform != selective && elform != tetrahedra && elform != nodal_tetrahedra &&
+      elform != pentahedra) {
+    refuse(name, "use ELFORM = 1 or 2, 10 or 13 for tetrahedra, 15 for pentahedra", "*SECTION_SOLID");
+  } else if (!formulation_of(shape, elform, model.control.solid_esort)) {
+    refuse(name + " that are " + shapes[static_cast<int>(shape)], "give ELFORM 10 and 13 four nodes, ELFORM 15 six, or use ELFORM = 1",
+           "*SECTION_SOLID");
+  }
+  if (const int type = hourglass_of(model, part).type; type < 1 || type > 6) {
     refuse("hourglass control IHQ = " + std::to_string(type),
-           "use IHQ = 1, 2 or 3 (viscous), 4 or 5 (stiffness), by *HOURGLASS", "*HOURGLASS");
+           "use IHQ = 1, 2 or 3 (viscous), 4 or 5 (stiffness), 6 (assumed strain), by *HOURGLASS", "*HOURGLASS");
   }
   if (!good) return false;
-  laws_[p] = std::move(*law);
-  elements_.set_kernel(p, {kernel_for(hexahedron(), laws_[p]), std::make_shared<const SolidProperties>(properties_of(model, part, laws_[p])),
-                           solid_history::law + laws_[p].history(), laws_[p].can_fail, laws_[p].deletion.step});
+  const Law& own = laws_[at(p)];
+  Shape& target = shapes_[static_cast<std::size_t>(shape)];
+  const SolidFormulation* formulation = target.formulation[at(p)] = formulation_of(shape, elform, model.control.solid_esort);
+  if (shape == SolidShape::tetrahedron && elform == nodal_tetrahedra) nodal_pressure_[at(p)] = 1;
+  target.elements.set_kernel(p, {kernel_for(formulation->kernels(), own),
+                                 std::make_shared<const SolidProperties>(properties_of(model, part, shape, own, formulation->points)),
+                                 formulation->history_size(own.history()), own.can_fail || erodes(model), own.deletion.step, erodes(model)});
   return true;
 }
 
 void SolidForces::internal_forces(const Model& model, State& state) {
-  elements_.internal_forces(model, state, [&model](const State& now, Index solid) {
-    const auto& nodes = model.solids.nodes[solid];
+  TileElements& fours = shapes_[static_cast<std::size_t>(SolidShape::tetrahedron)].elements;
+  if (!fours.node_values().empty()) nodal_volumes_.compute(fours, state, fours.node_values());
+  const auto fault = [&model](const State& now, Index solid) {
+    const auto& nodes = model.solids.nodes[at(solid)];
     const double volume = solid_volume(gather_coordinates(now.nodes.x, nodes), nodes);
-    return volume <= 0 ? fmt::format("has the negative volume {:.6g}", volume) : std::string("has a value that is not finite");
-  });
+    return volume <= 0 ? fmt::format("has the negative volume {:.6g}", volume)
+                       : std::string("is turned inside out at a corner, or has a value that is not finite");
+  };
+  for (Shape& shape : shapes_) shape.elements.internal_forces(model, state, fault);
+}
+
+void SolidForces::add_forces(State& state, NodeIndex begin, NodeIndex end) const {
+  for (const Shape& shape : shapes_) {
+    if (!shape.elements.empty()) shape.elements.add_forces(state, begin, end);
+  }
+}
+
+Governing SolidForces::governing() const {
+  Governing smallest = shapes_[0].elements.governing();
+  for (const Shape& shape : shapes_) {
+    if (shape.elements.governing().time_step < smallest.time_step) smallest = shape.elements.governing();
+  }
+  return smallest;
+}
+
+std::vector<TileElements*> SolidForces::elements() {
+  std::vector<TileElements*> all;
+  for (Shape& shape : shapes_) all.push_back(&shape.elements);
+  return all;
+}
+
+std::int64_t SolidForces::deleted() const {
+  std::int64_t count = 0;
+  for (const Shape& shape : shapes_) count += shape.elements.deleted();
+  return count;
+}
+
+double SolidForces::eroded_energy() const {
+  double energy = 0;
+  for (const Shape& shape : shapes_) energy += shape.elements.eroded_energy();
+  return energy;
+}
+
+void SolidForces::add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const {
+  for (const Shape& shape : shapes_) shape.elements.add_energies(internal, hourglass);
 }
 
 void SolidForces::report(SolidResults& results) const {
-  elements_.for_each([&](Index solid, PartIndex part, const double* own) {
-    const bool alive = elements_.alive(solid) > 0;
-    for (std::size_t c = 0; c < 6; ++c) results.stress[solid][c] = alive ? own[(solid_history::stress + c) * block_lanes] : 0.0;
-    const std::size_t strain = laws_[part].plastic_strain;
-    if (strain != Law::npos) results.plastic_strain[solid] = own[(solid_history::law + strain) * block_lanes];
-    if (!results.alive.empty()) results.alive[solid] = alive;
-  });
+  for (const Shape& shape : shapes_) {
+    shape.elements.for_each([&](Index solid, PartIndex part, const double* own) {
+      const SolidFormulation& f = *shape.formulation[at(part)];
+      const Law& law = laws_[at(part)];
+      const bool alive = shape.elements.alive(solid) > 0;
+      const double share = 1.0 / static_cast<double>(f.points);
+      StressVector stress{};
+      double strain = 0;
+      for (std::size_t p = 0; p < f.points; ++p) {
+        const double* point = own + solid_history::stress(f.own_values, law.history(), p) * block_lanes;
+        for (std::size_t c = 0; c < 6; ++c) stress[c] += share * point[c * block_lanes];
+        if (law.plastic_strain != Law::npos) strain += share * point[(6 + law.plastic_strain) * block_lanes];
+      }
+      results.stress[at(solid)] = alive ? stress : StressVector{};
+      if (law.plastic_strain != Law::npos) results.plastic_strain[at(solid)] = strain;
+      if (!results.alive.empty()) results.alive[at(solid)] = alive;
+    });
+  }
 }
 
 }  // namespace kardan

@@ -4,9 +4,16 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace kardan {
+
+double failing_points(const ElementDeletion& deletion, int points) {
+  if (deletion.points == 0) return points;
+  const double count = deletion.points > 0 ? deletion.points : std::ceil(-deletion.points / 100 * points - 1e-9);
+  return std::clamp(count, 1.0, static_cast<double>(points));
+}
 
 TileKernel kernel_for(const TileKernels& kernels, const Law& law) {
   if (law.inlined == InlinedLaw::elastic && kernels.elastic) return kernels.elastic;
@@ -69,6 +76,15 @@ void TileElements::start(State& state) {
     energy_.assign(mesh_.element.size(), 0.0);
     state.registry.add({input_.name + ".element_energy", "energy", writer}, energy_);
   }
+}
+
+void TileElements::prepare_mass_scaling(State& state) {
+  if (empty()) return;
+  steps_.assign(mesh_.element.size(), 0.0);
+  mass_factor_.assign(mesh_.element.size(), 1.0);
+  step_factor_.resize(mesh_.tiles.size());
+  for (std::size_t t = 0; t < mesh_.tiles.size(); ++t) step_factor_[t].resize(mesh_.tiles[t].blocks * block_lanes, 1.0);
+  state.registry.add({input_.name + ".mass_factor", "1", "elements.scale_masses"}, mass_factor_);
 }
 
 TileElements::Place TileElements::find(Index element) const {
@@ -137,6 +153,7 @@ void TileElements::run_tile(std::size_t t, const State& state, AlignedVector<dou
     double* local = scratch.data() + stride * k;
     local[0] = x.x, local[1] = x.y, local[2] = x.z;
     local[4] = v.x, local[5] = v.y, local[6] = v.z;
+    if (!node_values_.empty()) local[3] = node_values_[tile.first_node + k];
     if (turns) {
       const Vec3& w = state.nodes.omega[node[k]];
       local[8] = w.x, local[9] = w.y, local[10] = w.z;
@@ -154,9 +171,11 @@ void TileElements::run_tile(std::size_t t, const State& state, AlignedVector<dou
   work.history = history_.data() + history_begin_[t];
   if (part.can_fail) {
     work.smallest_step = part.smallest_step;
+    work.erode_below = part.erodes ? erode_below_ : 0.0;
     work.alive = alive_.data() + first;
   }
   if (!energy_.empty()) work.energy = energy_.data() + first;
+  if (!steps_.empty()) work.steps = steps_.data() + first;
   if (!step_factor_.empty() && !step_factor_[t].empty()) work.step_factor = step_factor_[t].data();
   if (!watched_begin_.empty() && watched_begin_[t] != npos) work.element_force = watched_force_.data() + watched_begin_[t];
   work.force = slots_.slots(tile);

@@ -27,7 +27,11 @@ struct PartKernel {
   std::size_t history_size = 0;            ///< values of an element
   bool can_fail = false;                   ///< its elements may be deleted
   double smallest_step = 0;                ///< then also where the stable step falls below it
+  bool erodes = false;                     ///< and are, where their stable step falls below TileElements::erode_below()
 };
+
+/// How many of an element's points must fail before it is deleted.
+double failing_points(const ElementDeletion& deletion, int points);
 
 /// The entry of a formulation for a law.
 TileKernel kernel_for(const TileKernels& kernels, const Law& law);
@@ -48,11 +52,39 @@ class TileElements {
   TileElements(const TileElementsInput& input, std::size_t node_count);
 
   bool empty() const { return mesh_.empty(); }
+  ElementKind kind() const { return input_.kind; }
   /// Parts that have elements here, ascending.
   std::vector<PartIndex> parts() const;
 
   /// Set-up, once: every part's kernel, then start(), then for_each() to fill the histories, which are zero.
   void set_kernel(PartIndex part, PartKernel kernel);
+  /// A value of every local node of all tiles that kernels read as the fourth of the node's position; empty: none.
+  std::vector<double>& node_values() { return node_values_; }
+  const TileMesh& mesh() const { return mesh_; }
+  /// From now on elements of parts that erode are deleted where their stable step is below `step`.
+  void erode_below(double step) { erode_below_ = step; }
+  /// After start(): masses of elements will be scaled.
+  void prepare_mass_scaling(State& state);
+  /// After internal_forces(): makes the elements heavier whose stable step is below `step` (where `exactly`, also others lighter), so that
+  /// it becomes `step`; add(element, increase of its mass over the mass of t = 0) for each, in the order of the tiles.
+  template <class F>
+  void scale_masses(double step, bool exactly, F&& add) {
+    for (std::size_t t = 0; t < mesh_.tiles.size(); ++t) {
+      const Tile& tile = mesh_.tiles[t];
+      if (!exactly && !(outcome_[t].time_step < step)) continue;
+      for (std::size_t i = 0; i < tile.elements; ++i) {
+        const std::size_t place = tile.first_block * block_lanes + i;
+        const double ratio = step / steps_[place];
+        if (!(ratio > 0) || (exactly ? ratio == 1 : !(ratio > 1))) continue;  // 0: deleted, its step is infinite
+        const double factor = mass_factor_[place] * ratio * ratio;
+        add(mesh_.element[place], factor - mass_factor_[place]);
+        mass_factor_[place] = factor;
+        step_factor_[t][i] *= ratio;
+      }
+      outcome_[t].time_step = step;
+    }
+    if (governing_.time_step < step || exactly) governing_.time_step = step;
+  }
   /// After start(): the stable steps of elements are multiplied by factor(element of the model, its part); see free_sides.hpp.
   template <class F>
   void scale_steps(F&& factor) {
@@ -145,6 +177,9 @@ class TileElements {
   std::vector<AlignedVector<double>> step_factor_;  ///< by tile and [block][lane]; empty: 1
   AlignedVector<double> alive_, energy_;       ///< [block][lane]; empty where nothing can be deleted
   AlignedVector<double> watched_force_;        ///< TileWork::element_force of the watched tiles
+  std::vector<double> node_values_;           ///< by local node of all tiles; empty: none
+  AlignedVector<double> steps_, mass_factor_;  ///< [block][lane] stable step, mass over that of t = 0; empty: no mass scaling
+  double erode_below_ = 0;
   std::vector<std::size_t> watched_begin_;    ///< by tile, into watched_force_; npos = nobody asks; empty = of no tile
   std::vector<double> internal_, hourglass_;  ///< energies, by tile
   std::vector<double> eroded_;                ///< internal energies of deleted elements, likewise

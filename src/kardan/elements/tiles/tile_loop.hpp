@@ -59,11 +59,12 @@ class TileReport {
       const Pack own = Pack::load(block.internal + l);
       Pack alive = Pack::load(block.alive + l), step = Pack::load(block.time_step + l);
       if (work.alive && work.smallest_step > 0) alive = select(step < Pack(work.smallest_step), zero, alive);
+      if (work.step_factor) step *= Pack::load(work.step_factor + place);
+      if (work.alive && work.erode_below > 0) alive = select(step < Pack(work.erode_below), zero, alive);
       internal_[i] += own;
       hourglass_[i] += Pack::load(block.hourglass + l);
       if (work.energy) (Pack::load(work.energy + place) + own).store(work.energy + place);
       if (work.alive) alive.store(work.alive + place);
-      if (work.step_factor) step *= Pack::load(work.step_factor + place);
       if (Pack::any((alive > zero) & ~((step > zero) & (abs(own) < infinity)))) find_broken(work, b, block);
       step = select(alive > zero, step, infinity);
       if (work.steps) step.store(work.steps + place);

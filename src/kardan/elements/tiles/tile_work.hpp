@@ -24,6 +24,7 @@ struct TileWork {
   StepTime step;
   double* history = nullptr;                    ///< [block][values of an element][lane]
   double smallest_step = 0;                     ///< elements whose stable step falls below it are deleted, where elements can be
+  double erode_below = 0;                       ///< likewise of the step that counts for the run, with its step_factor; 0 = none
   double* alive = nullptr;                      ///< [block][lane] in and out: 1, or 0 if deleted; null where nothing can be deleted
   double* energy = nullptr;                     ///< [block][lane] internal energy of each element, added to; may be null
   const double* step_factor = nullptr;          ///< [block][lane] on the stable step; null: 1

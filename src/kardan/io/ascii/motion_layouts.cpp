@@ -53,7 +53,7 @@ std::string glstat_text(const Snapshot& s) {
   if (type != 14) put(text, "{:10d}", integer(2));
   if (type != 14 && integer(3) != 0) put(text, " of part{:10d}", integer(3));
   put(text, "\n time...........................{:14.5E}\n", s.time);
-  static constexpr std::array<std::array<const char*, 2>, 20> lines = {
+  static constexpr std::array<std::array<const char*, 2>, 22> lines = {
       {{"time_step", " time step......................"},
        {"kinetic_energy", " kinetic energy................."},
        {"internal_energy", " internal energy................"},
@@ -73,7 +73,9 @@ std::string glstat_text(const Snapshot& s) {
        {"energy_ratio_wo_eroded", " energy ratio w/o eroded energy."},
        {"global_x_velocity", " global x velocity.............."},
        {"global_y_velocity", " global y velocity.............."},
-       {"global_z_velocity", " global z velocity.............."}}};
+       {"global_z_velocity", " global z velocity.............."},
+       {"added_mass", " added mass....................."},
+       {"percent_increase", " percentage increase............"}}};
   for (const RealColumn& c : f.columns)
     for (const auto& [name, label] : lines)
       if (c.name == name)

@@ -52,7 +52,7 @@ Folder glstat_folder(const Model& model, const State& state) {
   put("time_step", state.clock.dt);
   put("kinetic_energy", e.kinetic);
   put("internal_energy", e.internal);
-  if (e.stonewall != 0) put("stonewall_energy", e.stonewall);
+  if (!state.walls.empty()) put("stonewall_energy", e.stonewall);
   put("rb_stopper_energy", e.stopper);
   put("spring_and_damper_energy", e.spring_damper);
   put("joint_internal_energy", e.joint);
@@ -69,6 +69,10 @@ Folder glstat_folder(const Model& model, const State& state) {
   put("global_x_velocity", v.x);
   put("global_y_velocity", v.y);
   put("global_z_velocity", v.z);
+  if (model.control.time_step.dt2ms != 0) {
+    put("added_mass", state.added_mass.added);
+    put("percent_increase", state.added_mass.percent());
+  }
   return f;
 }
 

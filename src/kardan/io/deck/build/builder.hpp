@@ -134,7 +134,6 @@ class Builder {
   std::vector<std::pair<SourceLocation, std::string>> material_where;  ///< of each material: place and keyword
   std::vector<Card> joint_where;                                       ///< first card of each joint
   std::vector<Card> joint_references;                                  ///< joint stiffnesses that name a joint
-  std::optional<Card> mass_scaling;                                    ///< *CONTROL_TIMESTEP where DT2MS is not 0
   CurveIndex constant_one = none;
   struct PartSwitch {
     Card card;

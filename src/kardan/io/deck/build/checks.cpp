@@ -124,16 +124,6 @@ void check_model(Builder& b) {
   check_empty_bodies(b, use);
   check_joints(b);
   for (BodyLoad& load : b.model.body_loads) load.parts = b.body_load_parts;
-  if (b.mass_scaling) {
-    const bool deformable = std::any_of(b.model.parts.begin(), b.model.parts.end(), [&](const Part& part) {
-      const auto p = static_cast<PartIndex>(&part - b.model.parts.data());
-      const PartUse& u = use[at(p)];
-      return u.total() > u.elements[3] && !b.model.body_part(p);
-    });
-    if (deformable) {
-      b.unsupported(*b.mass_scaling, "dt2ms", "mass scaling is not available", "leave DT2MS at 0");
-    }
-  }
   if (!(b.model.control.termination.end_time > 0) && b.model.control.termination.end_cycle == 0 &&
       b.options.end_time <= 0) {
     b.diagnostics.add({Severity::warning,

@@ -34,11 +34,12 @@ void read_time_step(Builder& b, Block& block) {
   t.dt2ms = card.real("dt2ms", dimension::time);
   t.limit = b.optional_curve(card, "lctm");
   t.erode = static_cast<int>(card.integer("erode"));
-  if (t.dt2ms != 0) b.mass_scaling = card;
-  b.ignored(card, "erode", "an element of negative volume stops the run");
+  t.scale_mass_once = card.integer("ms1st") == 1;
+  if (t.erode >= 10) card.warning("erode", "only solids are deleted where their step falls below DTMIN, not shells and beams");
   b.ignored(card, "tslimt", "no element's stiffness is reduced to keep the step");
-  b.ignored(card, "ms1st", "there is no mass scaling");
-  for (const char* field : {"imscl", "rmscl", "dt2mslc"}) b.ignored(more, field, "there is no mass scaling");
+  b.refuse_nonzero(more, "imscl", "selective mass scaling", "leave it at 0");
+  b.refuse_nonzero(more, "dt2mslc", "a curve for DT2MS", "give a constant");
+  for (const char* field : {"dt2msf", "rmscl"}) b.ignored(more, field, "masses are scaled by DT2MS alone");
 }
 
 void read_rigid(Builder& b, Block& block) {
@@ -104,6 +105,15 @@ void read_relaxation(Builder& b, Block& block) {
   b.relaxation = card;
 }
 
+void read_solid(Builder& b, Block& block) {
+  const Card card = block.next("card0");
+  b.model.control.solid_esort = static_cast<int>(card.integer("esort"));
+  if (const int sort = b.model.control.solid_esort; sort < 0 || sort > 1)
+    b.unsupported(card, "esort", "this sorting of degenerate solids is not available", "give 0 (none) or 1 (to ELFORM 10 and 15)");
+  b.refuse_nonzero(card, "psfail", "the restriction of erosion by DTMIN to a set of parts", "leave it at 0");
+  b.ignored(card, "tet13k", "tetrahedra ELFORM 13 average their pressure with every material");
+}
+
 void read_hourglass(Builder& b, Block& block) {
   const Card card = block.next("card0");
   b.model.control.hourglass_type = static_cast<int>(card.integer("ihq"));
@@ -114,7 +124,9 @@ void read_bulk_viscosity(Builder& b, Block& block) {
   const Card card = block.next("card0");
   b.model.control.bulk_q1 = Builder::real_or(card, "q1", 1.5);
   b.model.control.bulk_q2 = Builder::real_or(card, "q2", 0.06);
-  b.ignored(card, "type", "the standard bulk viscosity of solids is used");
+  const std::int64_t type = card.integer("type");
+  if (type == 2) b.unsupported(card, "type", "the bulk viscosity of Richards and Wilkins is not available", "use TYPE = 1");
+  if (type < 0) card.warning("type", "shells have no bulk viscosity; solids have the standard one");
   b.ignored(card, "btype", "beams have no bulk viscosity");
 }
 
@@ -164,6 +176,7 @@ void build_control(Builder& b, Block& block) {
                                                       {"CONTROL_ENERGY", read_energy},
                                                       {"CONTROL_DYNAMIC_RELAXATION", read_relaxation},
                                                       {"CONTROL_SHELL", read_shell},
+                                                      {"CONTROL_SOLID", read_solid},
                                                       {"CONTROL_HOURGLASS", read_hourglass},
                                                       {"CONTROL_BULK_VISCOSITY", read_bulk_viscosity},
                                                       {"CONTROL_OUTPUT", read_output}};

@@ -323,6 +323,8 @@ void build_hourglass(Builder& b, Block& block) {
     h.type = static_cast<int>(card.integer("ihq"));
     h.coefficient = card.real("qm");
     h.bulk_type = static_cast<int>(card.integer("ibq"));
+    if (h.bulk_type < 0) card.warning("ibq", "shells have no bulk viscosity; solids have the standard one");
+    if (h.bulk_type > 1) b.unsupported(card, "ibq", "this type of bulk viscosity is not available", "use IBQ = 1");
     h.q1 = card.real("q1");
     h.q2 = card.real("q2");
     h.bending = card.real("qb_vdc");

@@ -1,0 +1,119 @@
+// The trilinear hexahedron by coefficients of sign patterns instead of nodes.
+//
+// Sources: Flanagan and Belytschko 1981, Int. J. Numer. Meth. Eng. 17, 679-706 (mean gradient, hourglass vectors).
+//
+// With natural coordinates r, s, t = +-1 of node I a nodal field is a_I = a0 + a1 r + a2 s + a3 t + a4 rs + a5 st + a6 rt + a7 rst
+// (24 additions there, 24 back). With x1 ... x7 of the coordinates the mean gradient operator B_I = dV/dx_I = integral
+// of grad N_I has the coefficients
+//   B1 = x2 x x3 + (x4 x x6)/3     B4 = (x2 x x5 - x1 x x6)/3
+//   B2 = x3 x x1 + (x5 x x4)/3     B5 = (x3 x x6 - x2 x x4)/3
+//   B3 = x1 x x2 + (x6 x x5)/3     B6 = (x1 x x4 - x3 x x5)/3,   B0 = B7 = 0   (x between vectors: cross product),
+// found by integrating the products of the trilinear map; V = (8/3) sum_a x_a.B_a, mean velocity gradient L = (8/V) sum
+// v_a B_a^T, forces of a stress F_a = sigma B_a. They are what Flanagan and Belytschko write out by nodes (their eq. 16
+// and appendix).
+#pragma once
+
+#include "kardan/elements/solid/solid_point.hpp"
+
+namespace kardan::KARDAN_ISA_NAMESPACE {
+
+/// Coefficients 1 ... 7 of a nodal field by sign patterns r, s, t, rs, st, rt, rst, at [0] ... [6].
+template <class R>
+struct Modes {
+  Vec3T<R> a[7];
+};
+
+template <class R>
+KARDAN_INLINE Modes<R> to_modes(const Vec3T<R> (&n)[8]) {
+  const Vec3T<R> s12 = n[0] + n[1], d12 = n[1] - n[0], s43 = n[3] + n[2], d43 = n[2] - n[3];
+  const Vec3T<R> s56 = n[4] + n[5], d56 = n[5] - n[4], s87 = n[7] + n[6], d87 = n[6] - n[7];
+  const Vec3T<R> low_s = s43 - s12, low_r = d12 + d43, low_rs = d43 - d12;
+  const Vec3T<R> high_s = s87 - s56, high_r = d56 + d87, high_rs = d87 - d56;
+  const R f(0.125);
+  return {{(low_r + high_r) * f, (low_s + high_s) * f, ((s56 + s87) - (s12 + s43)) * f, (low_rs + high_rs) * f,
+           (high_s - low_s) * f, (high_r - low_r) * f, (high_rs - low_rs) * f}};
+}
+
+/// Nodal values of coefficients whose constant one is zero.
+template <class R>
+KARDAN_INLINE void to_nodes(const Modes<R>& m, Vec3T<R> (&n)[8]) {
+  const auto layer = [&](const Vec3T<R>& c, const Vec3T<R>& r, const Vec3T<R>& s, const Vec3T<R>& rs, int first) {
+    const Vec3T<R> s12 = c - s, s43 = c + s, d12 = r - rs, d43 = r + rs;
+    n[first] = s12 - d12;
+    n[first + 1] = s12 + d12;
+    n[first + 2] = s43 + d43;
+    n[first + 3] = s43 - d43;
+  };
+  layer(-m.a[2], m.a[0] - m.a[5], m.a[1] - m.a[4], m.a[3] - m.a[6], 0);
+  layer(m.a[2], m.a[0] + m.a[5], m.a[1] + m.a[4], m.a[3] + m.a[6], 4);
+}
+
+/// Mean gradient: coefficients B1 ... B6 and the volume.
+template <class R>
+struct MeanGradient {
+  Vec3T<R> b[6];
+  R volume;
+};
+
+template <class R>
+KARDAN_INLINE MeanGradient<R> mean_gradient(const Modes<R>& x) {
+  const R third(1.0 / 3.0);
+  const auto& a = x.a;
+  MeanGradient<R> g{{cross(a[1], a[2]) + cross(a[3], a[5]) * third, cross(a[2], a[0]) + cross(a[4], a[3]) * third,
+                     cross(a[0], a[1]) + cross(a[5], a[4]) * third, (cross(a[1], a[4]) - cross(a[0], a[5])) * third,
+                     (cross(a[2], a[5]) - cross(a[1], a[3])) * third, (cross(a[0], a[3]) - cross(a[2], a[4])) * third},
+                    R{}};
+  for (int k = 0; k < 6; ++k) g.volume += dot(a[k], g.b[k]);
+  g.volume *= R(8.0 / 3.0);
+  return g;
+}
+
+/// (8/V) sum_k a_k b_k^T over the given coefficients.
+template <int Count, class R>
+KARDAN_INLINE Mat3T<R> sum_outer(const Vec3T<R>* a, const Vec3T<R>* b, const R& factor) {
+  Mat3T<R> m;
+  for (int i = 0; i < 3; ++i) {
+    const auto c = static_cast<std::size_t>(i);
+    Vec3T<R> row;
+    for (int k = 0; k < Count; ++k) row += b[k] * a[k][c];
+    m[c] = row * factor;
+  }
+  return m;
+}
+
+/// V over the largest of the six faces, half the products of their diagonals (LS-DYNA), and of 4 sqrt(|B_i|^2 + |B_4|^2 + |B_5|^2 +
+/// |B_6|^2), i = 1, 2, 3. The latter is the face of a parallelepiped; where an element is folded, its faces' diagonals say little, but
+/// its frequency, from 8 c^2 sum B_k B_k^T/V^2 (Flanagan and Belytschko 1984, J. Eng. Mech. 110, 35-40), is high.
+template <class R>
+KARDAN_INLINE R characteristic_length(const Vec3T<R> (&x)[8], const MeanGradient<R>& g) {
+  const auto face = [&](int a, int b, int c, int d) {
+    const Vec3T<R> n = cross(x[c] - x[a], x[d] - x[b]);
+    return dot(n, n);
+  };
+  const R largest = max(max(max(face(0, 3, 2, 1), face(4, 5, 6, 7)), max(face(0, 1, 5, 4), face(1, 2, 6, 5))),
+                        max(face(2, 3, 7, 6), face(3, 0, 4, 7)));
+  const auto size = [&](int k) { return dot(g.b[k], g.b[k]); };
+  const R folded = max(max(size(0), size(1)), size(2)) + size(3) + size(4) + size(5);
+  return g.volume / (R(0.5) * sqrt(max(largest, R(64.0) * folded)));
+}
+
+/// A pack of hexahedra at t_n and in the middle of the step.
+template <class R>
+struct HexahedronMotion {
+  Modes<R> x, v, middle;        ///< positions at t_n, velocities, positions at t_{n-1/2}
+  MeanGradient<R> now, between; ///< of x and of middle
+  R length;                     ///< at t_n, for the stable step
+
+  KARDAN_INLINE explicit HexahedronMotion(const PackPlace& place) {
+    const PackNodes<8> nodes(place);
+    x = to_modes(nodes.x);
+    v = to_modes(nodes.v);
+    now = mean_gradient(x);
+    length = characteristic_length(nodes.x, now);
+    const R half_dt(0.5 * place.work.step.dt);
+    for (int k = 0; k < 7; ++k) middle.a[k] = x.a[k] - v.a[k] * half_dt;
+    between = mean_gradient(middle);
+  }
+};
+
+}  // namespace kardan::KARDAN_ISA_NAMESPACE
