@@ -7,44 +7,17 @@
 #include <cmath>
 #include <memory>
 
+#include "handmade_model.hpp"
 #include "kardan/elements/element_system.hpp"
 
 namespace kardan::test {
 
-struct Bench {
-  Model model;
+struct Bench : HandmadeModel {
   State state;
   Diagnostics diagnostics;
   std::unique_ptr<ElementSystem> elements;
 
-  NodeIndex node(const Vec3& x) {
-    const auto n = static_cast<NodeIndex>(model.nodes.size());
-    model.nodes.id.push_back(n + 1);
-    model.nodes.index_of.emplace(n + 1, n);
-    model.nodes.x.push_back(x);
-    model.nodes.constrained.push_back(0);
-    return n;
-  }
-  CurveIndex curve(std::vector<double> x, std::vector<double> y) {
-    Curve c;
-    c.x = std::move(x);
-    c.y = std::move(y);
-    model.curves.push_back(c);
-    return static_cast<CurveIndex>(model.curves.size()) - 1;
-  }
-  /// A part of a new section and a new material.
-  PartIndex part(Section section, Material material) {
-    const auto p = static_cast<PartIndex>(model.parts.size());
-    section.id = material.id = 100 + p;
-    model.sections.push_back(section);
-    model.materials.push_back(material);
-    Part entry;
-    entry.id = 100 + p;
-    entry.section = static_cast<Index>(model.sections.size()) - 1;
-    entry.material = static_cast<Index>(model.materials.size()) - 1;
-    model.parts.push_back(entry);
-    return p;
-  }
+  PartIndex part(Section section, Material material) { return HandmadeModel::part(std::move(section), std::move(material), 100); }
   PartIndex spring_part(const SpringMaterial& law, const DiscreteSection& discrete = {}) {
     Section section;
     section.kind = ElementKind::discrete;

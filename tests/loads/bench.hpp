@@ -4,30 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "handmade_model.hpp"
 #include "kardan/loads/load_system.hpp"
 
 namespace kardan {
 
-struct Bench {
-  Model model;
+struct Bench : test::HandmadeModel {
   State state;
   Diagnostics diagnostics;
 
-  NodeIndex node(const Vec3& x) {
-    const auto n = static_cast<NodeIndex>(model.nodes.size());
-    model.nodes.id.push_back(n + 1);
-    model.nodes.index_of.emplace(n + 1, n);
-    model.nodes.x.push_back(x);
-    model.nodes.constrained.push_back(0);
-    return n;
-  }
-  CurveIndex curve(std::vector<double> x, std::vector<double> y) {
-    Curve c;
-    c.x = std::move(x);
-    c.y = std::move(y);
-    model.curves.push_back(c);
-    return static_cast<CurveIndex>(model.curves.size()) - 1;
-  }
   void size_state(double mass = 2.0, double inertia = 0.5) {
     state.nodes.resize(model.nodes.size());
     state.nodes.x = model.nodes.x;

@@ -156,5 +156,31 @@ TEST(Viscoelastic, ConstantRateAndRelaxationAreExact) {
   expect_lanes_independent(law, 0.01);
 }
 
+/// LS-DYNA would take the equation of state in place of E and PR: to compute without it would be another material.
+TEST(EquationOfState, JohnsonCookWithOneIsRefusedInSolids) {
+  Model model;
+  Material material;
+  FieldMaterial m;
+  m.number = 15;
+  m.keyword = "*MAT_JOHNSON_COOK";
+  m.density = 8930;
+  m.youngs_modulus = 117e9;
+  m.poissons_ratio = 0.35;
+  m.values = {{"a", 90e6}, {"b", 292e6}, {"n", 0.31}, {"epso", 1.0}};
+  material.law = m;
+  model.materials.push_back(material);
+  model.equations_of_state.emplace_back();
+  Part part;
+  part.material = 0;
+  const auto refused = [&](LawUse use) {
+    Diagnostics d;
+    return !make_law(model, part, use, 1, d) && d.error_count() == 1;
+  };
+  EXPECT_FALSE(refused(LawUse::solid));
+  part.equation_of_state = 0;
+  EXPECT_TRUE(refused(LawUse::solid));
+  EXPECT_FALSE(refused(LawUse::shell));
+}
+
 }  // namespace
 }  // namespace kardan

@@ -4,36 +4,17 @@
 #include <array>
 #include <cmath>
 
+#include "handmade_model.hpp"
 #include "kardan/model/beam_sections.hpp"
 #include "kardan/solver/solver.hpp"
 
 namespace kardan {
 namespace {
 
-struct Assembly {
-  Model model;
-
-  NodeIndex node(const Vec3& x) {
-    const auto n = static_cast<NodeIndex>(model.nodes.size());
-    model.nodes.id.push_back(n + 1);
-    model.nodes.index_of.emplace(n + 1, n);
-    model.nodes.x.push_back(x);
-    model.nodes.constrained.push_back(0);
-    return n;
-  }
+struct Assembly : test::HandmadeModel {
   template <class Law>
-  PartIndex part(Section section, const Law& law) {
-    const auto p = static_cast<PartIndex>(model.parts.size());
-    Material material;
-    material.law = law;
-    section.id = material.id = p + 1;
-    model.sections.push_back(section);
-    model.materials.push_back(material);
-    Part part;
-    part.id = p + 1;
-    part.section = part.material = p;
-    model.parts.push_back(part);
-    return p;
+  PartIndex part(const Section& section, const Law& law) {
+    return HandmadeModel::part(section, material_of(law));
   }
   template <class Law>
   PartIndex beam_part(const BeamSection& beam, const Law& law) {

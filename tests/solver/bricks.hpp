@@ -3,35 +3,15 @@
 
 #include <array>
 
-#include "kardan/model/model.hpp"
+#include "handmade_model.hpp"
 
 namespace kardan {
 
-struct Bricks {
-  Model model;
-
-  PartIndex part(decltype(Material::law) law) {
+struct Bricks : test::HandmadeModel {
+  PartIndex part(const decltype(Material::law)& law) {
     Section section;
     section.kind = ElementKind::solid;
-    const auto p = static_cast<PartIndex>(model.parts.size());
-    Material material;
-    material.law = law;
-    section.id = material.id = p + 1;
-    model.sections.push_back(section);
-    model.materials.push_back(material);
-    Part part;
-    part.id = p + 1;
-    part.section = part.material = p;
-    model.parts.push_back(part);
-    return p;
-  }
-  NodeIndex node(const Vec3& x) {
-    const auto n = static_cast<NodeIndex>(model.nodes.size());
-    model.nodes.id.push_back(n + 1);
-    model.nodes.index_of.emplace(n + 1, n);
-    model.nodes.x.push_back(x);
-    model.nodes.constrained.push_back(0);
-    return n;
+    return HandmadeModel::part(section, material_of(law));
   }
   void brick(PartIndex p, const std::array<NodeIndex, 8>& nodes) {
     model.solids.id.push_back(static_cast<UserId>(model.solids.size()) + 1);
@@ -48,13 +28,6 @@ struct Bricks {
       brick(p, {a, a + 1, a + 2, a + 3, a + 4, a + 5, a + 6, a + 7});
     }
     return first;
-  }
-  CurveIndex curve(std::vector<double> x, std::vector<double> y) {
-    Curve c;
-    c.x = std::move(x);
-    c.y = std::move(y);
-    model.curves.push_back(std::move(c));
-    return static_cast<CurveIndex>(model.curves.size()) - 1;
   }
 };
 

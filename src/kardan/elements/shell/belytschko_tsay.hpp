@@ -306,20 +306,28 @@ KARDAN_INLINE void find_triangles(const std::uint16_t* connectivity, ShellBlock&
   }
 }
 
-/// A tile; Law is Inlined or Called.
-template <class Law>
-void shell_tile(TileWork& work) {
+/// The loop over a tile of shells of any formulation; Law is Inlined or Called, `pack` computes the lanes from `first` on.
+template <class Law, class ElementPack>
+KARDAN_INLINE void for_each_shell_pack(TileWork& work, ElementPack&& pack) {
   const ShellProperties& p = *static_cast<const ShellProperties*>(work.properties);
   const Law law(p.law);
   ShellBlock block;
   for_each_block<4>(work, 6, shell_history_size(p, law.history()), block,
                     [&](const std::uint16_t* connectivity, std::size_t, double* history) {
                       find_triangles(connectivity, block);
-                      for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) {
-                        shell_pack<Pack>(p, law, work, connectivity, block, history, l);
+                      for (std::size_t first = 0; first < block_lanes; first += Pack::lanes) {
+                        pack(p, law, connectivity, block, history, first);
                       }
                       block.force.scatter(connectivity, block.alive, work.force);
                     });
+}
+
+template <class Law>
+void shell_tile(TileWork& work) {
+  for_each_shell_pack<Law>(work, [&work](const ShellProperties& p, const Law& law, const std::uint16_t* connectivity, ShellBlock& block,
+                                         double* history, std::size_t first) {
+    shell_pack<Pack>(p, law, work, connectivity, block, history, first);
+  });
 }
 
 }  // namespace kardan::KARDAN_ISA_NAMESPACE

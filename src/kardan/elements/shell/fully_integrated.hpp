@@ -202,15 +202,11 @@ KARDAN_INLINE void fully_integrated_pack(const ShellProperties& p, const Law& la
   plane_nodal_forces(s, modes, forces, block.force, first);
 }
 
-/// A tile; Law is Inlined or Called.
 template <class Law>
 void fully_integrated_tile(TileWork& work) {
-  const ShellProperties& p = *static_cast<const ShellProperties*>(work.properties);
-  const Law law(p.law);
-  ShellBlock block;
-  for_each_block<4>(work, 6, shell_history_size(p, law.history()), block, [&](const std::uint16_t* connectivity, std::size_t, double* history) {
-    for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) fully_integrated_pack<Pack>(p, law, work, connectivity, block, history, l);
-    block.force.scatter(connectivity, block.alive, work.force);
+  for_each_shell_pack<Law>(work, [&work](const ShellProperties& p, const Law& law, const std::uint16_t* connectivity, ShellBlock& block,
+                                         double* history, std::size_t first) {
+    fully_integrated_pack<Pack>(p, law, work, connectivity, block, history, first);
   });
 }
 

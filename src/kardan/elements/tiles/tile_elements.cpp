@@ -84,6 +84,7 @@ void TileElements::prepare_mass_scaling(State& state) {
   mass_factor_.assign(mesh_.element.size(), 1.0);
   step_factor_.resize(mesh_.tiles.size());
   for (std::size_t t = 0; t < mesh_.tiles.size(); ++t) step_factor_[t].resize(mesh_.tiles[t].blocks * block_lanes, 1.0);
+  side_factor_ = step_factor_;
   state.registry.add({input_.name + ".mass_factor", "1", "elements.scale_masses"}, mass_factor_);
 }
 

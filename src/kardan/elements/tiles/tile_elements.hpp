@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <span>
@@ -79,7 +80,7 @@ class TileElements {
         const double factor = mass_factor_[place] * ratio * ratio;
         add(mesh_.element[place], factor - mass_factor_[place]);
         mass_factor_[place] = factor;
-        step_factor_[t][i] *= ratio;
+        step_factor_[t][i] = side_factor_[t][i] * std::sqrt(factor);
       }
       outcome_[t].time_step = step;
     }
@@ -124,7 +125,7 @@ class TileElements {
   /// Internal energy of an element at t_n; 0 where it is not kept.
   double energy(Index element) const;
 
-  /// Set-up, after start(): keeps the nodal forces of these elements, those that are here, for add_force_on().
+  /// Set-up, after start(): keeps the nodal forces of these elements, those that are here, for force_on().
   void watch(const std::vector<Index>& elements);
   /// Nodes of an element; empty if it is not here.
   std::vector<NodeIndex> nodes_of(Index element) const;
@@ -175,7 +176,8 @@ class TileElements {
   AlignedVector<double> history_;              ///< blocks of all tiles
   std::vector<std::size_t> history_begin_;    ///< by tile
   std::vector<AlignedVector<double>> step_factor_;  ///< by tile and [block][lane]; empty: 1
-  AlignedVector<double> alive_, energy_;       ///< [block][lane]; empty where nothing can be deleted
+  std::vector<AlignedVector<double>> side_factor_;  ///< step_factor_ at t = 0; it goes with the root of mass_factor_
+  AlignedVector<double> alive_, energy_;       ///< [block][lane]; empty where nothing can be deleted (energy_: and nobody keeps it)
   AlignedVector<double> watched_force_;        ///< TileWork::element_force of the watched tiles
   std::vector<double> node_values_;           ///< by local node of all tiles; empty: none
   AlignedVector<double> steps_, mass_factor_;  ///< [block][lane] stable step, mass over that of t = 0; empty: no mass scaling

@@ -63,6 +63,11 @@ std::optional<JohnsonCook> JohnsonCook::make(LawSource& source) {
   const auto& m = std::get<FieldMaterial>(source.material.law);
   const std::size_t errors = source.diagnostics.error_count();
   const Complain complain = [&](const char* what, const char* cure) { source.diagnostics.error(source.name + " " + what, cure, m.keyword); };
+  if (source.use == LawUse::solid && source.equation_of_state() != nullptr) {
+    complain("has an equation of state (EOSID of its part), which this version does not compute with this law",
+             "set EOSID = 0 and give E and PR, whose bulk modulus makes the pressure");
+    return std::nullopt;
+  }
   if (m.youngs_modulus == 0) {
     complain("has no E: its pressure would need an equation of state", "give E and PR, whose bulk modulus makes the pressure");
     return std::nullopt;
