@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kardan/base/index.hpp"
+#include "kardan/model/contact.hpp"
 
 namespace kardan {
 
@@ -73,6 +74,7 @@ struct Control {
   RigidControl rigid;
   DynamicRelaxation relaxation;
   EnergyControl energy;
+  ContactControl contact;
   double bulk_q1 = 1.5, bulk_q2 = 0.06;
   int hourglass_type = 0;
   double hourglass_qm = 0.1;

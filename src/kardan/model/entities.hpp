@@ -10,6 +10,7 @@
 
 #include "kardan/base/index.hpp"
 #include "kardan/base/vec3.hpp"
+#include "kardan/model/contact.hpp"
 #include "kardan/model/id_map.hpp"
 
 namespace kardan {
@@ -162,6 +163,7 @@ struct Part {
   Index equation_of_state = none;    ///< into Model::equations_of_state
   Index nodal_rigid_body = none;     ///< into Model::nodal_rigid_bodies where the part is one
   std::optional<GivenInertia> inertia;
+  std::optional<PartContact> contact;  ///< *PART_CONTACT
 };
 
 struct NodeSet {

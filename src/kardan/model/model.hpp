@@ -13,6 +13,7 @@
 #include "kardan/model/loads.hpp"
 #include "kardan/model/materials.hpp"
 #include "kardan/model/rigid.hpp"
+#include "kardan/model/rigid_wall.hpp"
 #include "kardan/model/ties.hpp"
 
 namespace kardan {
@@ -68,6 +69,8 @@ struct Model {
   std::vector<InitialVelocity> initial_velocities;
 
   std::vector<RigidWall> rigid_walls;
+  std::vector<Contact> contacts;
+  std::vector<FrictionTable> friction_tables;
 
   Control control;
   OutputControl output;

@@ -133,6 +133,21 @@ struct SectionReport {
   Vec3 centroid;       ///< mean of the nodes' positions, global
 };
 
+/// RCFORC, SLEOUT and NCFORC of one contact at t_n.
+struct ContactReport {
+  Vec3 force;                    ///< on the tracked side; the reference side gets the opposite
+  Vec3 moment;                   ///< of those forces about the origin
+  double tracked_energy = 0;     ///< work of the contact's springs and dampers against the tracked side's nodes, so far; with …
+  double reference_energy = 0;   ///< … that against the nodes of the reference side: what the contact stores and dissipates, friction included
+  double friction_energy = 0;    ///< dissipated by friction, so far: part of the two above
+  std::int64_t touching = 0;     ///< pairs of node and segment in touch
+  std::int64_t rebuilds = 0;     ///< of the list of candidates, so far
+  /// Forces of this contact on its nodes, by entry of `nodes`; only where SPR or MPR ask for them, valid where somebody looks.
+  std::array<std::vector<NodeIndex>, 2> nodes;  ///< tracked, reference side: ascending, fixed
+  std::array<std::vector<Vec3>, 2> nodal_force;
+  std::array<std::vector<double>, 2> nodal_area;  ///< share of the segments' area, for pressures
+};
+
 /// RWFORC of one rigid wall at t_n.
 struct WallReport {
   UserId id = 0;
@@ -194,6 +209,7 @@ struct State {
   std::vector<ReactionReport> reactions;
   std::vector<SectionReport> sections;       ///< by cross section, valid between kick and drift of a cycle that is looked at
   std::vector<WallReport> walls;             ///< by rigid wall of the model
+  std::vector<ContactReport> contacts;       ///< by contact of the model
   EnergyLedger energy;
   AddedMass added_mass;
   ElementResults results;
