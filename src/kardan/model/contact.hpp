@@ -17,7 +17,7 @@ namespace kardan {
 
 /// What a side is made of. Parts give the quadrilaterals and triangles of their shells, the free faces of their solids and their beams.
 struct ContactSide {
-  enum class Kind : std::uint8_t { none, everything, parts, segments, nodes } kind = Kind::none;
+  enum class Kind : std::uint8_t { nothing, everything, parts, segments, nodes } kind = Kind::nothing;
   std::vector<PartIndex> parts;                    ///< of `parts`: ascending; SSTYP 5, 6 (exempted) are resolved by the reader
   std::vector<std::array<NodeIndex, 4>> segments;  ///< of `segments`: the normal (right-hand rule) points to the other side
   std::vector<NodeIndex> nodes;                    ///< of `nodes`: ascending
