@@ -32,9 +32,6 @@ void mark_single(std::vector<Side<N>>& sides, std::vector<std::uint8_t>& free) {
   }
 }
 
-constexpr std::array<std::array<std::size_t, 4>, 6> faces{
-    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
-
 /// How much of a direction between two sides is free to breathe.
 double share(std::uint8_t free, int a, int b) { return 0.5 * ((free >> a & 1) + (free >> b & 1)); }
 
@@ -85,7 +82,7 @@ std::vector<std::uint8_t> free_faces(const SolidElements& solids) {
   for (std::size_t e = 0; e < solids.size(); ++e) {
     for (std::size_t i = 0; i < 6; ++i) {
       std::array<NodeIndex, 4> n;
-      for (std::size_t k = 0; k < 4; ++k) n[k] = solids.nodes[e][faces[i][k]];
+      for (std::size_t k = 0; k < 4; ++k) n[k] = solids.nodes[e][hexahedron_faces[i][k]];
       std::sort(n.begin(), n.end());
       const auto end = std::unique(n.begin(), n.end());
       if (end - n.begin() < 3) continue;

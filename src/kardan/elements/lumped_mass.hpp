@@ -1,25 +1,13 @@
-// Lumped masses of all elements, and the part properties they are made of.
+// Lumped masses of all elements.
 #pragma once
-
-#include <array>
 
 #include "kardan/base/diagnostics.hpp"
 #include "kardan/model/beam_sections.hpp"
 #include "kardan/model/model.hpp"
+#include "kardan/model/properties.hpp"
 #include "kardan/state/state.hpp"
 
 namespace kardan {
-
-/// What every law has: density [mass/length^3], Young's modulus [force/length^2], Poisson's ratio.
-struct BulkProperties {
-  double density = 0, youngs_modulus = 0, poissons_ratio = 0;
-};
-BulkProperties bulk_properties(const Material& material);
-
-/// Thickness of a shell at its four nodes [length]: *ELEMENT_SHELL_THICKNESS, else the section's (T2..T4 = 0 take T1).
-std::array<double, 4> shell_thickness(const Model& model, Index shell);
-/// Mean of the nodes' thicknesses; of the first three for a triangle.
-double mean_thickness(const Model& model, Index shell);
 
 /// What one beam adds to each of its two nodes.
 ///
