@@ -239,12 +239,12 @@ TEST_F(Program, FaultsOfADeckAreAllReportedWithTheirLines) {
 }
 
 TEST_F(Program, AKeywordThatChangesThePhysicsStopsTheRunUnlessLeftOutByName) {
-  const std::string contact = "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n0,0,5\n0.1\n\n*END\n";
+  const std::string contact = "*CONTACT_AUTOMATIC_SINGLE_SURFACE_MORTAR\n0,0,5\n0.1\n\n*END\n";
   std::string text = falling_cube;
   text.replace(text.find("*END"), 5, contact);
   const std::string path = deck("cube.k", text);
   EXPECT_EQ(call({"run", path, "-o", (folder / "out").string()}), 2);
-  EXPECT_THAT(err, HasSubstr("*CONTACT_AUTOMATIC_SINGLE_SURFACE"));
+  EXPECT_THAT(err, HasSubstr("*CONTACT_AUTOMATIC_SINGLE_SURFACE_MORTAR"));
   EXPECT_EQ(call({"run", path, "--without", "contact", "-o", (folder / "out").string()}), 0) << err;
   EXPECT_THAT(summary("out")["warnings"].dump(), HasSubstr("CONTACT"));
 }

@@ -23,7 +23,7 @@ struct ContactSide {
   std::vector<NodeIndex> nodes;                    ///< of `nodes`: ascending
   std::optional<std::array<Vec3, 2>> box;          ///< low and high corner: only what lies in it at t = 0
   double stiffness_scale = 1;                      ///< SFS, SFM
-  double thickness = 0;                            ///< SST, MST: in place of the elements' thickness; 0 = theirs; negative: none at all
+  double thickness = 0;                            ///< SST, MST: in place of the elements' thickness; 0 = theirs; negative = none at all
   double thickness_scale = 1;                      ///< SFST, SFMT
   bool report_nodes = false;                       ///< SPR, MPR: in NCFORC and the interface database
 };
@@ -72,6 +72,7 @@ struct Tie {
   } holding = Holding::constraint;
   bool rotations = false;            ///< rotations of the nodes too: TIED_SHELL_EDGE_TO_SURFACE, SPOTWELD
   bool torsion = false;              ///< SPOTWELD_WITH_TORSION
+  double distance = 0;               ///< nodes farther than this from a segment are not tied; 0 = the default of the keyword
   int option = 0;                    ///< OPTION of TIEBREAK
   double normal_limit = 0, shear_limit = 0;        ///< NFLF, SFLF: forces; NFLS, SFLS: stresses
   double normal_exponent = 2, shear_exponent = 2;  ///< NEN, MES

@@ -47,7 +47,7 @@ TEST(Keyword, UnknownOptionIsAnError) {
 }
 
 TEST(Keyword, NotNeededIsNamedOnce) {
-  Read read("*CONTROL_CPU\n1\n*CONTROL_CPU\n1\n*DATABASE_SLEOUT\n1.0\n");
+  Read read("*CONTROL_CPU\n1\n*CONTROL_CPU\n1\n*DATABASE_ATDOUT\n1.0\n");
   EXPECT_TRUE(read.diagnostics.ok());
   EXPECT_EQ(read.diagnostics.all().size(), 2u);
   EXPECT_EQ(read.diagnostics.all()[0].severity, Severity::notice);
@@ -56,8 +56,7 @@ TEST(Keyword, NotNeededIsNamedOnce) {
 
 TEST(Keyword, ContactStopsUnlessLeftOut) {
   const std::string text =
-      "*CONTACT_AUTOMATIC_SINGLE_SURFACE_ID\n1\n*RIGIDWALL_PLANAR_MOVING\n1\n*AIRBAG_SIMPLE_PRESSURE_VOLUME\n1\n*CONTACT_"
-      "FORCE_TRANSDUCER_PENALTY\n1\n*END";
+      "*CONTACT_AUTOMATIC_SINGLE_SURFACE_MORTAR_ID\n1\n*RIGIDWALL_FORCE_TRANSDUCER\n1\n*AIRBAG_SIMPLE_PRESSURE_VOLUME\n1\n*CONTACT_ENTITY\n1\n*END";
   Read refused(text);
   EXPECT_EQ(refused.diagnostics.error_count(), 3u) << refused.messages();
   EXPECT_NE(find_message(refused.diagnostics, Severity::error, "--without contact"), nullptr);

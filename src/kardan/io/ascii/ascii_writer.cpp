@@ -50,6 +50,12 @@ std::string AsciiWriter::text_of(const Snapshot& s) {
       return bndout_text(s);
     case OutputFile::spcforc:
       return spcforc_text(s);
+    case OutputFile::rcforc:
+      return rcforc_text(s);
+    case OutputFile::sleout:
+      return sleout_text(s);
+    case OutputFile::ncforc:
+      return ncforc_text(s);
     case OutputFile::rwforc:
       return rwforc_text(s);
     case OutputFile::deforc:

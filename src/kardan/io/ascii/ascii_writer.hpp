@@ -42,5 +42,8 @@ std::string rwforc_text(const Snapshot& s);
 std::string deforc_text(const Snapshot& s);
 std::string secforc_text(const Snapshot& s);
 std::string elout_text(const Snapshot& s);
+std::string rcforc_text(const Snapshot& s);
+std::string sleout_text(const Snapshot& s);
+std::string ncforc_text(const Snapshot& s);
 
 }  // namespace kardan

@@ -159,7 +159,7 @@ void DeckReader::handle(FileState& state, Block&& block, std::string_view rest) 
   // A material whose law is not built is handed out all the same: its density counts, and the model builder refuses the
   // deformable parts made of it.
   const bool weighed = block.keyword.starts_with("MAT_") && match.info->find_card("card0") != nullptr;
-  if (match.info->status == KeywordStatus::stops && !weighed && stopped(block)) return;
+  if ((match.info->status == KeywordStatus::stops || unwanted(block)) && !weighed && stopped(block)) return;
   if (!match.bad_option.empty()) {
     diagnostics_.error(fmt::format("*{} has no option {} here", block.keyword, match.bad_option),
                        "docs/keywords.md lists the options of each keyword", block.as_written_, block.where);
@@ -168,10 +168,13 @@ void DeckReader::handle(FileState& state, Block&& block, std::string_view rest) 
   if (!handle_own(state, block, rest)) deck_.blocks.push_back(std::move(block));
 }
 
+bool DeckReader::unwanted(const Block& block) const {
+  return (block.keyword.starts_with("CONTACT_") || block.keyword.starts_with("RIGIDWALL_")) && options_.without.contains("contact");
+}
+
 bool DeckReader::stopped(const Block& block) {
-  const bool contact = block.keyword.starts_with("CONTACT_") || block.keyword.starts_with("RIGIDWALL_");
   if (!named_.insert(block.as_written_).second) return true;
-  if (contact && options_.without.contains("contact"))
+  if (unwanted(block))
     diagnostics_.warning("left out at your wish (--without contact): parts may pass through each other", {},
                          block.as_written_, block.where);
   else

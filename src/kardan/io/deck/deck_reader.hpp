@@ -44,6 +44,8 @@ class DeckReader {
   void handle(FileState& state, Block&& block, std::string_view rest);
   /// Keywords that the reader acts on itself; false: the block is for the consumer.
   bool handle_own(FileState& state, Block& block, std::string_view rest);
+  /// A contact or wall that the user leaves out.
+  bool unwanted(const Block& block) const;
   bool stopped(const Block& block);
   void unknown(const Block& block);
 

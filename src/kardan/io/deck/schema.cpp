@@ -134,9 +134,11 @@ const CardLayout* KeywordInfo::find_card(std::string_view card_name) const {
 
 const CardLayout& KeywordInfo::card(std::string_view card_name) const {
   if (const CardLayout* own = find_card(card_name)) return *own;
-  const KeywordInfo* common = Schema::instance().find("*");
-  KARDAN_ASSERT(common != nullptr);
-  const CardLayout* shared = common->find_card(card_name);
+  const CardLayout* shared = nullptr;
+  for (const std::string& row : {name.substr(0, name.find('_') + 1) + "*", std::string("*")}) {
+    const KeywordInfo* common = Schema::instance().find(row);
+    if (common != nullptr && shared == nullptr) shared = common->find_card(card_name);
+  }
   KARDAN_ASSERT(shared != nullptr);
   return *shared;
 }

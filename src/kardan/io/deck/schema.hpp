@@ -47,7 +47,8 @@ struct KeywordInfo {
   std::vector<std::string> options;  ///< suffixes beyond TITLE and ID that it takes, e.g. LOCAL, FAILURE
   std::string stops_if;              ///< it stops a run only where this field of card0 is not zero; empty: always
   std::string note;  ///< one line: what it does here, or what leaving it out would change and what to do
-  const CardLayout& card(std::string_view card_name) const;       ///< asserts that it is in the table
+  /// Its own card of this name, else that of its family (CONTACT_*) or of all keywords (*); asserts that there is one.
+  const CardLayout& card(std::string_view card_name) const;
   const CardLayout* find_card(std::string_view card_name) const;  ///< nullptr where it is not
   std::vector<CardLayout> cards;
 };

@@ -10,7 +10,8 @@ const std::vector<OutputFile>& Reporter::files() {
   static const std::vector<OutputFile> all = {OutputFile::glstat,  OutputFile::matsum,  OutputFile::nodout,
                                               OutputFile::rbdout,  OutputFile::jntforc, OutputFile::bndout,
                                               OutputFile::spcforc, OutputFile::deforc,  OutputFile::secforc,
-                                              OutputFile::elout,   OutputFile::rwforc};
+                                              OutputFile::elout,   OutputFile::rwforc,
+                                              OutputFile::rcforc,  OutputFile::sleout,  OutputFile::ncforc};
   return all;
 }
 
@@ -46,6 +47,15 @@ Snapshot Reporter::take(OutputFile file, const Model& model, const State& state)
       break;
     case OutputFile::elout:
       s.folders = elout_folders(model, state);
+      break;
+    case OutputFile::rcforc:
+      s.folders.push_back(rcforc_folder(model, state));
+      break;
+    case OutputFile::sleout:
+      s.folders.push_back(sleout_folder(model, state));
+      break;
+    case OutputFile::ncforc:
+      s.folders = ncforc_folders(model, state);
       break;
     case OutputFile::rwforc:
       s.folders.push_back(rwforc_folder(model, state));

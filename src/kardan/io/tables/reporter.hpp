@@ -40,6 +40,10 @@ Folder spcforc_folder(const Model& model, const State& state);
 Folder rwforc_folder(const Model& model, const State& state);
 Folder deforc_folder(const Model& model, const State& state);
 Folder secforc_folder(const Model& model, const State& state);
+Folder rcforc_folder(const Model& model, const State& state);
+Folder sleout_folder(const Model& model, const State& state);
+/// /ncforc/slave_<id> and master_<id>, for sides that SPR and MPR ask for.
+std::vector<Folder> ncforc_folders(const Model& model, const State& state);
 /// /elout/solid and /elout/shell.
 std::vector<Folder> elout_folders(const Model& model, const State& state);
 

@@ -103,7 +103,8 @@ const std::unordered_map<std::string, Entry>& table() {
       {"CONSTRAINED_LINEAR_GLOBAL", {rest, build_linear_constraint}},
       {"CONSTRAINED_LINEAR_LOCAL", {rest, build_linear_constraint}},
       {"CONSTRAINED_INTERPOLATION", {rest, build_interpolation}},
-      {"RIGIDWALL_PLANAR", {rest, build_rigid_wall}}};
+      {"RIGIDWALL_PLANAR", {rest, build_rigid_wall}},
+      {"DEFINE_FRICTION", {switches, build_friction_table}}};
   return entries;
 }
 
@@ -112,7 +113,8 @@ struct Family {
   std::string_view prefix;
   Entry entry;
 };
-constexpr std::array<Family, 10> families{{{"SET_", {sets_phase, register_set}},
+constexpr std::array<Family, 11> families{{{"SET_", {sets_phase, register_set}},
+                                           {"CONTACT_", {rest, build_contact}},
                                            {"CONSTRAINED_JOINT_STIFFNESS", {rest, build_joint_stiffness}},
                                            {"CONSTRAINED_JOINT_", {rest, build_joint}},
                                            {"CONSTRAINED_NODAL_RIGID_BODY", {elements_phase, build_nodal_rigid_body}},
@@ -181,6 +183,7 @@ void Builder::build() {
     }
   }
   finish_switches(*this);
+  finish_contacts(*this);
   check_model(*this);
   replace_relative_motions(*this);
   finish_relaxation(*this);

@@ -107,6 +107,7 @@ class Builder {
   IdSpace vectors{IdKind::define, "vector", "*DEFINE_VECTOR"};
   IdSpace sd_orientations{IdKind::define, "orientation", "*DEFINE_SD_ORIENTATION"};
   IdSpace boxes{IdKind::define, "box", "*DEFINE_BOX"};
+  IdSpace friction_tables{IdKind::define, "friction table", "*DEFINE_FRICTION"};
 
   IdSpace joint_ids{IdKind::other, "joint", "*CONSTRAINED_JOINT_…_ID"};
   IdSpace joint_stiffness_ids{IdKind::other, "joint stiffness", "*CONSTRAINED_JOINT_STIFFNESS"};
@@ -143,6 +144,9 @@ class Builder {
   };
   std::vector<PartSwitch> part_switches;                               ///< of *DEFORMABLE_TO_RIGID_AUTOMATIC
   bool relaxation_curves = false;                                      ///< some curve has SIDR = 1 or 2
+  struct ContactDefaults {
+    int shell_thickness = 0, initial_penetration = 0;                  // SHLTHK, IGNORE
+  } contact_defaults;                                                  ///< of *CONTROL_CONTACT
   std::optional<Card> relaxation;                                      ///< *CONTROL_DYNAMIC_RELAXATION
 
  private:
@@ -221,6 +225,12 @@ void build_node_set_constraint(Builder&, Block&);
 void build_linear_constraint(Builder&, Block&);
 void build_interpolation(Builder&, Block&);
 void build_rigid_wall(Builder&, Block&);
+void build_contact(Builder&, Block&);
+void build_friction_table(Builder&, Block&);
+void read_control_contact(Builder&, Block&);
+PartContact read_part_contact(const Card& card);
+/// What *CONTROL_CONTACT sets for contacts that say nothing themselves.
+void finish_contacts(Builder&);
 
 void build_title(Builder&, Block&);
 void build_control(Builder&, Block&);
@@ -232,6 +242,8 @@ void build_cross_section(Builder&, Block&);
 void finish_relaxation(Builder&);
 void check_model(Builder&);
 
+/// A shell as a segment: a triangle repeats its third node.
+std::array<NodeIndex, 4> segment_of_shell(const Builder& builder, Index shell);
 /// Six tensor fields ixx … izz of a card.
 Mat3 read_inertia(const Card& card);
 /// The cards inertia0 … inertia3 of *PART_INERTIA and nodal rigid bodies: centre, tensor, velocities and, with IRCS =

@@ -179,6 +179,7 @@ void build_control(Builder& b, Block& block) {
                                                       {"CONTROL_SOLID", read_solid},
                                                       {"CONTROL_HOURGLASS", read_hourglass},
                                                       {"CONTROL_BULK_VISCOSITY", read_bulk_viscosity},
+                                                      {"CONTROL_CONTACT", read_control_contact},
                                                       {"CONTROL_OUTPUT", read_output}};
   const auto reader = readers.find(block.keyword);
   if (reader != readers.end())

@@ -88,7 +88,7 @@ void build_part(Builder& b, Block& block) {
     b.ignored(card, "adpopt", "the mesh is not adapted");
     b.ignored(card, "tmid", "there is no thermal solution");
     if (inertia) part.inertia = read_given_inertia(b, block, "cid");
-    if (block.has("CONTACT")) block.next("contact");
+    if (block.has("CONTACT")) part.contact = read_part_contact(block.next("contact"));
     if (block.has("PRINT")) block.next("print");
     if (b.parts.enter(card, "pid", static_cast<PartIndex>(b.model.parts.size()))) {
       if (inertia && part.material != none && !b.model.materials[static_cast<std::size_t>(part.material)].rigid()) {

@@ -29,12 +29,6 @@ std::vector<Segment> segments_of_set(Builder& b, const Card& card) {
   return set == none ? std::vector<Segment>{} : b.model.segment_sets[at(set)].segments;
 }
 
-Segment segment_of_shell(const Builder& b, Index shell) {
-  Segment s = b.model.shells.nodes[at(shell)];
-  if (s[3] == none) s[3] = s[2];
-  return s;
-}
-
 std::vector<Segment> one_shell(Builder& b, const Card& card) {
   const UserId id = card.id("eid", IdKind::element);
   const Index shell = b.elements[static_cast<std::size_t>(ElementKind::shell)].index(id);
@@ -60,6 +54,12 @@ std::vector<Segment> loaded_segments(Builder& b, const std::string& keyword, con
 }
 
 }  // namespace
+
+Segment segment_of_shell(const Builder& b, Index shell) {
+  Segment s = b.model.shells.nodes[at(shell)];
+  if (s[3] == none) s[3] = s[2];
+  return s;
+}
 
 void build_pressure(Builder& b, Block& block) {
   while (!block.at_end()) {
