@@ -158,6 +158,20 @@ TEST(Card, MalformedFieldsNameEverything) {
             "deck.k:5:28: error: *CONSTRAINED_JOINT_REVOLUTE_ID, field N3: found '3.5', expected an integer");
 }
 
+TEST(Card, ShiftedColumnsThatLeaveNoDoubtAreTakenWithAWarning) {
+  // The first value is a column too long, as decks of the corpus have it.
+  Read read("*CONTROL_TERMINATION\n       10.0         0       0.0       0.01.000000E8         0\n");
+  const Card card = read.block(0).next("card0");
+  EXPECT_EQ(card.real("endtim"), 10);
+  EXPECT_EQ(card.real("dtmin"), 0);
+  EXPECT_EQ(card.real("endmas"), 1) << "the exponent lies in the next field";
+  EXPECT_EQ(read.diagnostics.warning_count(), 2u) << read.messages();
+  EXPECT_TRUE(read.diagnostics.ok());
+  Read doubtful("*CONTROL_TERMINATION\n       1 2\n");
+  doubtful.block(0).next("card0").real("endtim");
+  EXPECT_FALSE(doubtful.diagnostics.ok());
+}
+
 TEST(Card, MalformedNumbersInFreeFormat) {
   Read read("*NODE\n1,1.0E,nan,1e999\n99999999999999999999,0,0,0\n1,<1+\n2,0,&,a b\n");
   std::vector<std::string> fields;

@@ -154,6 +154,25 @@ std::optional<ParameterValue> Card::evaluated(std::string_view text, const Field
   return value;
 }
 
+namespace {
+
+/// What shifted columns leave of a number where there is no doubt about its value: several zeros, or an exponent cut off before its digits.
+std::optional<double> unambiguous_slip(std::string_view text) {
+  if (text.find_first_of("123456789") == std::string_view::npos && text.find(' ') != std::string_view::npos) {
+    for (std::string_view rest = text; !rest.empty();) {
+      const std::size_t end = std::min(rest.find(' '), rest.size());
+      if (end > 0 && parse_real(rest.substr(0, end)).state != NumberState::ok) return std::nullopt;
+      rest = trimmed(rest.substr(end));
+    }
+    return 0.0;
+  }
+  if (text.find_last_of("eEdD") != text.size() - 1 || text.size() < 2) return std::nullopt;
+  const RealResult mantissa = parse_real(text.substr(0, text.size() - 1));
+  return mantissa.state == NumberState::ok ? std::optional(mantissa.value) : std::nullopt;
+}
+
+}  // namespace
+
 void Card::malformed(const FieldLayout& field, int column, std::string_view found, NumberState state) const {
   const char* expected = field.type == 'I' ? "an integer" : "a real number";
   if (state == NumberState::too_large)
@@ -201,6 +220,10 @@ double Card::real(int field) const {
   }
   const RealResult result = parse_real(text);
   if (result.state == NumberState::ok) return result.value;
+  if (const std::optional<double> meant = free_ ? std::nullopt : unambiguous_slip(text)) {
+    report(Severity::warning, upper(f.name), column, fmt::format("found {}, taken as {:g}", in_quotes(text), *meant), "check the columns of this line");
+    return *meant;
+  }
   malformed(f, column, text, result.state);
   return f.default_real;
 }

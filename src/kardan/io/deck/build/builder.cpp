@@ -301,7 +301,7 @@ void Builder::unsupported(const Block& block, std::string message, std::string c
 }
 
 void Builder::ignored(const Card& card, std::string_view field, const std::string& consequence) {
-  if (!card.present() || card.is_default(field)) return;
+  if (!card.present() || card.is_default(field) || card.text(field).find_first_not_of("0.+-eE ") == std::string::npos) return;  // 0 is LS-DYNA's default too
   card.warning(field, "the value " + card.text(field) + " is read but not honoured: " + consequence);
 }
 
