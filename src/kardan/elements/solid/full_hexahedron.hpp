@@ -50,7 +50,7 @@ KARDAN_INLINE void full_hexahedron_pack(const SolidProperties& p, const Law& law
   divergence *= R(8.0) / m.between.volume;
 
   const R ratio = m.now.volume / R::load(history + solid_history::volume * block_lanes);
-  const BulkViscosity<R> bulk(p, m.now.volume, one / m.now.volume, divergence, history);
+  const BulkViscosity<R> bulk(p, m.now.volume, one / m.now.volume, m.length, divergence, history);
   const std::size_t point_values = (6 + law.history()) * block_lanes;
   double* values = history + solid_history::own * block_lanes;
   R work{}, pressure{}, smallest(1e300), modulus(p.longitudinal), failed{};

@@ -25,12 +25,12 @@ KARDAN_INLINE void hexahedron_pack(const SolidProperties& p, const Law& law, con
   const Mat3T<R> l = sum_outer<6>(m.v.a, m.between.b, R(8.0) * inverse_between);
   const R divergence = l[0].x + l[1].y + l[2].z;
   const PointMotion<R> motion = point_motion(l, dt);
-  const BulkViscosity<R> bulk(p, m.now.volume, inverse_volume, divergence, history);
+  const BulkViscosity<R> bulk(p, m.now.volume, inverse_volume, m.length, divergence, history);
   point.viscosity = bulk.mean();
   R work = update_point(law, step, motion, point, history + (solid_history::own + hourglass_values) * block_lanes);
   work += bulk.work(divergence, dt);
   Vec3T<R> hourglass[4];
-  const R scale = hourglass_scale(p, m.between, bulk.size * bulk.size, inverse_between, dt);
+  const R scale = hourglass_scale(p, m, bulk.size * bulk.size, inverse_between, dt);
   const R hourglass_work = hourglass_forces(p, m, l, motion.turn, scale, dt, history + solid_history::own * block_lanes, hourglass);
 
   point.stress.xx -= bulk.pressure;

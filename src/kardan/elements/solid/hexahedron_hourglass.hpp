@@ -5,8 +5,12 @@
 // field: constant strains and rotations are free of them, also at distorted elements.
 //
 // Flanagan and Belytschko 1981, Int. J. Numer. Meth. Eng. 17, 679-706:
-//   Q_a = QM rho c V^(2/3)/4 q_a                          (IHQ 1, 2, 3)
-//   dQ_a/dt = QM (lambda + 2 mu) (B:B/V)/16 q_a           (IHQ 4, 5), which turns with the material.
+//   Q_a = QM rho c V^(2/3)/4 q_a/G                        (IHQ 1, 2, 3)
+//   dQ_a/dt = QM (lambda + 2 mu) (B:B/V)/16 q_a/G         (IHQ 4, 5), which turns with the material.
+// G is Kardan's, 1 on parallelepipeds: a bound of the largest eigenvalue of g_a.g_b/8 (hourglass_size()). With it no mode of any shape
+// decays faster than 8 QM rho c V^(2/3)/(4 m) = 16 QM c/V^(1/3), m = rho V/8, as with the patterns h_a themselves, which LS-DYNA's IHQ 1
+// uses: stable where 16 QM c dt < 2 V^(1/3); with c dt <= 0.9 L and L <= V^(1/3) up to QM = 0.139. The vectors g of a flat element warped
+// by w across its thickness t are 2 w/t times as long; without G the rate would grow with their square, past 2/dt at a few thicknesses.
 //
 // Belytschko and Bindeman 1993, Comput. Meth. Appl. Mech. Eng. 105, 225-260, assumed strains of the type ASQBI, as in Hallquist,
 // LS-DYNA Theory Manual 2006, "Hourglass control type 6" (IHQ 6): the stiffness that the element's modes have on the brick, without
@@ -54,13 +58,30 @@ KARDAN_INLINE void assumed_strain_increments(const SolidProperties& p, const Mod
   increment[3] = global(q4);
 }
 
+/// Bound of the largest eigenvalue of g_a.g_b/8, 1 on parallelepipeds. With g_a = sum_k P_k (delta_ka - Y_ka), Y_ka = (8/V) b_k.x_a, of
+/// the patterns P_k, P_k.P_l = 8 delta_kl, the matrix is Y1^T Y1 + (1 - Y2)^T (1 - Y2), Y1 the rows r, s, t, and Y2 rs, st, rt of Y.
+template <class R>
+KARDAN_INLINE R hourglass_size(const Modes<R>& x, const MeanGradient<R>& g, const R& inverse_volume) {
+  R linear{}, own{};
+  for (int a = 3; a < 7; ++a) {
+    for (int k = 0; k < 3; ++k) {
+      const R y1 = dot(g.b[k], x.a[a]), y2 = dot(g.b[k + 3], x.a[a]);
+      linear += y1 * y1;
+      own += y2 * y2;
+    }
+  }
+  const R f = R(8.0) * inverse_volume, most = R(1.0) + f * sqrt(own);
+  return f * f * linear + most * most;
+}
+
 /// Factor of the viscous and the stiffness control. `area` V^(2/3), `inverse_between` the inverse of the volume in the middle of the step.
 template <class R>
-KARDAN_INLINE R hourglass_scale(const SolidProperties& p, const MeanGradient<R>& between, const R& area, const R& inverse_between, const R& dt) {
-  if (p.hourglass == SolidHourglass::viscous) return R(p.hourglass_scale) * area;
+KARDAN_INLINE R hourglass_scale(const SolidProperties& p, const HexahedronMotion<R>& m, const R& area, const R& inverse_between, const R& dt) {
+  const R size = R(p.hourglass_scale) / hourglass_size(m.middle, m.between, inverse_between);
+  if (p.hourglass == SolidHourglass::viscous) return size * area;
   R bb{};  // an eighth of B:B
-  for (int k = 0; k < 6; ++k) bb += dot(between.b[k], between.b[k]);
-  return R(p.hourglass_scale) * R(8.0) * bb * inverse_between * dt;
+  for (int k = 0; k < 6; ++k) bb += dot(m.between.b[k], m.between.b[k]);
+  return size * R(8.0) * bb * inverse_between * dt;
 }
 
 /// Forces of the hourglass modes at t_n on the geometry of the middle of the step; returns their work over the step. `l` is the mean

@@ -99,7 +99,8 @@ KARDAN_INLINE void pentahedron_pack(const SolidProperties& p, const Law& law, co
                                         PentahedronCofactors<R>(PentahedronGradient<R>(x, 1))};
   const R volume = half * (c[0].jacobian + c[1].jacobian);
   const R ratio = volume / R::load(history + solid_history::volume * block_lanes);
-  const BulkViscosity<R> bulk(p, volume, one / volume, divergence, history);
+  const R length = pentahedron_length(x, volume);
+  const BulkViscosity<R> bulk(p, volume, one / volume, length, divergence, history);
 
   // The twist.
   const Vec3T<R> normal_between = mean_normal(middle), normal = mean_normal(x);
@@ -143,7 +144,7 @@ KARDAN_INLINE void pentahedron_pack(const SolidProperties& p, const Law& law, co
   work += bulk.work(divergence, dt) * volume_between;
   const auto good = min(c[0].jacobian, c[1].jacobian) > zero;
   report_pack(p, block, first, force, work, hourglass_work, failed, good);
-  stable_step(p, pentahedron_length(x, volume), divergence, modulus, good).store(block.time_step + first);
+  stable_step(p, length, divergence, modulus, good).store(block.time_step + first);
 }
 
 }  // namespace kardan::KARDAN_ISA_NAMESPACE

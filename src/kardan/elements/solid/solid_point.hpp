@@ -129,21 +129,27 @@ KARDAN_INLINE R inverse_cube_root(const R& v, const R& before) {
   return r;
 }
 
-/// Bulk viscosity at t_n on density and length of t_n, where the volume shrinks. Keeps pressure and length.
+/// Bulk viscosity at t_n on density and length of t_n, where the volume shrinks: rho l |D| (Q1 l |D| + Q2 c).
+///
+/// l is V^(1/3) (Hallquist), but not more than L, the length of the stable step. Between two faces of area A and mass rho A L/2 the
+/// thickness has the frequency omega = 2 c/L, and the viscosity dq/dD = rho l Q2 c the damping ratio xi = dq/dD omega/(2 rho c^2) = Q2 l/L;
+/// the step's limit is (sqrt(1 + xi^2) - xi) L/c. stable_step() has xi = Q2, which is right for l = L only: in flat elements V^(1/3) is
+/// (a/L)^(2/3) L, at 1 : 20 xi would be 0.44 and the limit 0.65 L/c.
 template <class R>
 struct BulkViscosity {
   R before, pressure;  ///< at t_{n-1} and t_n
   R size;              ///< V^(1/3) at t_n
 
-  /// @param volume at t_n, @param inverse_volume its inverse
-  KARDAN_INLINE BulkViscosity(const SolidProperties& p, const R& volume, const R& inverse_volume, const R& divergence, double* history) {
+  /// @param volume at t_n, @param inverse_volume its inverse, @param length L
+  KARDAN_INLINE BulkViscosity(const SolidProperties& p, const R& volume, const R& inverse_volume, const R& length, const R& divergence,
+                               double* history) {
     double* const kept = history + solid_history::viscosity * block_lanes;
     double* const kept_root = history + solid_history::inverse_size * block_lanes;
     const R density = R(p.density) * R::load(history + solid_history::volume * block_lanes) * inverse_volume;
     const R root = inverse_cube_root(volume, R::load(kept_root));
     size = volume * (root * root);
     root.store(kept_root);
-    const R squeeze = size * max(-divergence, R(0.0));
+    const R squeeze = min(size, length) * max(-divergence, R(0.0));
     before = R::load(kept);
     pressure = density * squeeze * (R(p.q1) * squeeze + R(p.q2) * R(p.wave_speed));
     pressure.store(kept);

@@ -54,7 +54,9 @@ KARDAN_INLINE void tetrahedron_pack(const SolidProperties& p, const Law& law, co
 
   MaterialPoint<R> point;
   point.volume = volume / R::load(history + solid_history::volume * block_lanes);
-  const BulkViscosity<R> bulk(p, volume, R(1.0) / volume, divergence, history);
+  const R widest = max(max(dot(now.b[0], now.b[0]), dot(now.b[1], now.b[1])), max(dot(now.b[2], now.b[2]), dot(now.b[3], now.b[3])));
+  const R length = now.six_volumes / sqrt(widest);
+  const BulkViscosity<R> bulk(p, volume, R(1.0) / volume, length, divergence, history);
   point.viscosity = bulk.mean();
   point.modulus = R(p.longitudinal);
   PointMotion<R> motion = point_motion(l, dt);
@@ -86,8 +88,7 @@ KARDAN_INLINE void tetrahedron_pack(const SolidProperties& p, const Law& law, co
   force[0] = -(force[1] + force[2] + force[3]);
   const auto good = volume > zero;
   report_pack(p, block, first, force, work * between.six_volumes * sixth, zero, point.failed, good);
-  const R widest = max(max(dot(now.b[0], now.b[0]), dot(now.b[1], now.b[1])), max(dot(now.b[2], now.b[2]), dot(now.b[3], now.b[3])));
-  stable_step(p, now.six_volumes / sqrt(widest), divergence, point.modulus, good).store(block.time_step + first);
+  stable_step(p, length, divergence, point.modulus, good).store(block.time_step + first);
 }
 
 }  // namespace kardan::KARDAN_ISA_NAMESPACE
