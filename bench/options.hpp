@@ -1,5 +1,6 @@
 // The options of the benches: --json (one object a row), --quick (smaller problem, fewer repetitions); where the bench has several rows,
-// --csv FILE (all of them for a spreadsheet) and --threads N (at most so many; 2 otherwise).
+// --csv FILE (all of them for a spreadsheet), --threads N (at most so many; 2 otherwise) and --only TEXT (the rows in whose
+// "case, variant, elements" it is, of shell and solid).
 #pragma once
 
 #include <cstdlib>
@@ -11,7 +12,7 @@ namespace kardan::bench {
 
 struct Options {
   bool json = false, quick = false;
-  std::string csv;
+  std::string csv, only;
   int threads = 2;
 
   Options(int argc, char** argv) {
@@ -19,6 +20,7 @@ struct Options {
       json |= std::strcmp(argv[i], "--json") == 0;
       quick |= std::strcmp(argv[i], "--quick") == 0;
       if (std::strcmp(argv[i], "--csv") == 0 && i + 1 < argc) csv = argv[++i];
+      if (std::strcmp(argv[i], "--only") == 0 && i + 1 < argc) only = argv[++i];
       if (std::strcmp(argv[i], "--threads") == 0 && i + 1 < argc) threads = std::atoi(argv[++i]);
     }
   }

@@ -82,6 +82,7 @@ StepReport::~StepReport() {
 }
 
 void StepReport::add(const StepCase& c, double seconds) {
+  if (fmt::format("{}, {}, {}", c.name, c.variant, c.elements).find(options_.only) == std::string::npos) return;
   const double before = memory().now;
   double one = 0;
   for (int threads = 1; threads <= std::min(options_.threads, omp_get_num_procs()); ++threads) {

@@ -47,7 +47,7 @@ struct Pack {
   Vector v{};
 
   Pack() = default;
-  KARDAN_INLINE Pack(double a) : v(Vector{} + a) {}
+  KARDAN_INLINE Pack(double a) : v(a - Vector{}) {}  // a - 0 is a, also for -0: the compiler leaves it out, which it may not do with 0 + a
   KARDAN_INLINE explicit Pack(Vector a) : v(a) {}
 
   KARDAN_INLINE static Pack load(const double* p) {
@@ -71,6 +71,7 @@ struct Pack {
     return bits != 0;
 #endif
   }
+  KARDAN_INLINE static Mask choose(const Mask& mask, const Mask& a, const Mask& b) { return mask ? a : b; }
   /// base[index] of every lane.
   KARDAN_INLINE static Pack gather(const double* base, const Mask& index) {
 #if defined(__AVX512F__)

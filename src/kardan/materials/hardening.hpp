@@ -31,13 +31,13 @@ struct HardeningCurve {
     if (row_count == 1) return {R(rows[0]), R(rows[1]), R(rows[2]), R(rows[3])};
     typename R::Mask row{};
     if (row_count <= counted_rows) {
-      const auto step = typename R::Mask{} + static_cast<std::int64_t>(hardening_columns);
-      for (std::size_t k = 1; k < row_count; ++k) row += (p < R(rows[k * hardening_columns])) ? typename R::Mask{} : step;
+      for (std::size_t k = 1; k < row_count; ++k) {
+        row = R::choose(p < R(rows[k * hardening_columns]), row, row + static_cast<std::int64_t>(hardening_columns));
+      }
     } else {
       for (std::size_t half = row_count / 2; half > 0; half /= 2) {
         const typename R::Mask next = row + static_cast<std::int64_t>(half * hardening_columns);
-        const typename R::Mask below = R::gather(rows, next) > p;
-        row = below ? row : next;
+        row = R::choose(R::gather(rows, next) > p, row, next);
       }
     }
     return {R::gather(rows, row), R::gather(rows + 1, row), R::gather(rows + 2, row), R::gather(rows + 3, row)};

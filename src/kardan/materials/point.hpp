@@ -93,6 +93,12 @@ struct PlaneStress {
   }
 };
 
+/// Work of a stress on a strain increment.
+template <class R>
+[[gnu::always_inline]] inline R contraction(const PlaneStress<R>& s, const PlaneStress<R>& d) {
+  return s.xx * d.xx + s.yy * d.yy + s.xy * d.xy + s.yz * d.yz + s.zx * d.zx;
+}
+
 /// A point of a shell: the stress normal to the shell vanishes.
 template <class R>
 struct ShellPoint {

@@ -28,6 +28,7 @@
 // hourglass forces then do no work in a rigid rotation and have no resultant moment. (LS-DYNA leaves this term out.)
 #pragma once
 
+#include "kardan/base/pack_trio.hpp"
 #include "kardan/base/vec3.hpp"
 #include "kardan/elements/shell/shell_kernel.hpp"
 #include "kardan/elements/tiles/tile_loop.hpp"
@@ -74,8 +75,6 @@ KARDAN_INLINE ShellAxes<R> shell_axes(const Vec3T<R> (&p)[4]) {
 
 /// What a block's elements report and give to their nodes.
 struct ShellBlock : BlockReport {
-  double share[2][block_lanes];  ///< N of nodes 1, 2 and of nodes 3, 4
-  double triangle[block_lanes];  ///< 1 or 0
   NodalForces<4, 6> force;
 };
 
@@ -142,7 +141,8 @@ struct ShellResultants {
   R fxx{}, fyy{}, fxy{}, qx{}, qy{}, mxx{}, myy{}, mxy{};
   R thinning{};  ///< increment of the mean normal strain, where the thickness follows it
   R work{};    ///< of the stresses over the step, per area
-  R intact{};  ///< 0 where too many points have failed
+  R failed{};  ///< points that have failed
+  R intact{};  ///< 0 where those are too many
   R stiffening{1.0};
 
   /// The same stresses over a thickness `ratio` times as large.
@@ -153,47 +153,117 @@ struct ShellResultants {
   }
 };
 
+/// Adds the resultants of the stress s of a point at height z with weight w, both times half the thickness.
+template <class R>
+KARDAN_INLINE void add_stress(const PlaneStress<R>& s, const R& z, const R& w, ShellResultants<R>& t) {
+  const R wz = w * z;
+  t.fxx += w * s.xx;
+  t.fyy += w * s.yy;
+  t.fxy += w * s.xy;
+  t.qy += w * s.yz;
+  t.qx += w * s.zx;
+  t.mxx += wz * s.xx;
+  t.myy += wz * s.yy;
+  t.mxy += wz * s.xy;
+}
+
+template <class G>
+KARDAN_INLINE PlaneStress<G> load_stress(const double* h) {
+  return {G::load(h), G::load(h + block_lanes), G::load(h + 2 * block_lanes), G::load(h + 3 * block_lanes), G::load(h + 4 * block_lanes)};
+}
+template <class G>
+KARDAN_INLINE void store_stress(const PlaneStress<G>& s, double* h) {
+  s.xx.store(h);
+  s.yy.store(h + block_lanes);
+  s.xy.store(h + 2 * block_lanes);
+  s.yz.store(h + 3 * block_lanes);
+  s.zx.store(h + 4 * block_lanes);
+}
+
+/// The points of a pack of shells through the thickness, one after the other, or three at a time: with the same operations on each, since
+/// it depends on the width of the pack how they are taken.
+template <class R, class Law>
+struct ThicknessPoints {
+  const ShellProperties& p;
+  const Law& law;
+  const ShellStrains<R>& r;
+  const StepTime& step;
+  const ShellThickness<R>& thickness;
+  double* history;
+  const std::size_t next = shell_history_size(p, law.history()) * block_lanes;  ///< from here to the values of the next block
+
+  KARDAN_INLINE double* values(int i) const { return history + static_cast<std::size_t>(i) * shell_point_values(law.history()) * block_lanes; }
+  KARDAN_INLINE R height(int i) const { return thickness.half * R(p.zeta[i]) + thickness.offset; }
+  KARDAN_INLINE R weight(int i) const { return thickness.half * R(p.weight[i]); }
+  /// A point, or three, at t_{n-1}; G is R or a trio.
+  template <class G>
+  KARDAN_INLINE ShellPoint<G> at(const G& z, const double* h) const {
+    ShellPoint<G> point;
+    point.stress = load_stress<G>(h);
+    point.strain = {G(r.xx) + z * G(r.kxx), G(r.yy) + z * G(r.kyy), G(r.xy) + z * G(r.kxy), G(r.yz), G(r.zx)};
+    point.spin = G(R(-0.5) * r.xy);  // the axes follow a line of the material along x, which turns by half of the shear more than it
+    return point;
+  }
+  /// @param twice double the work per volume; @param strain normal increment
+  KARDAN_INLINE void add_work(int i, const R& twice, ShellResultants<R>& t) const { t.work += R(0.5) * weight(i) * twice; }
+  KARDAN_INLINE void add_thinning(int i, const R& strain, ShellResultants<R>& t) const { t.thinning += R(0.5 * p.weight[i]) * strain; }
+  /// Point i to t_n, its resultants added to t. @return with Elastic: false where something yields; nothing has changed then.
+  template <bool Elastic>
+  KARDAN_INLINE bool add_one(int i, ShellResultants<R>& t) const {
+    double* const h = values(i);
+    ask_for(h + next, shell_point_values(law.history()));
+    const R z = height(i), w = weight(i);
+    ShellPoint<R> point = at(z, h);
+    const R old_sum = point.stress.xx + point.stress.yy, old_work = contraction(point.stress, point.strain);
+    if constexpr (Elastic) {
+      if (!law.elastic_step(point, h + 5 * block_lanes)) return false;
+    } else {
+      law.update(point, step, h + 5 * block_lanes);
+    }
+    const PlaneStress<R>& s = point.stress;
+    store_stress(s, h);
+    add_work(i, old_work + contraction(s, point.strain), t);
+    if (p.thins) add_thinning(i, point.thickness_strain + R(p.elastic_thinning) * (s.xx + s.yy - old_sum), t);
+    t.stiffening = max(t.stiffening, point.stiffening);
+    t.failed += point.failed;
+    add_stress(s, z, w, t);
+    return true;
+  }
+  /// Points i, i + 1, i + 2, likewise.
+  KARDAN_INLINE void add_three(int i, ShellResultants<R>& t) const {
+    using Three = PackTrio<shell_point_values(Law::history()) * block_lanes>;
+    double* const h = values(i);
+    ask_for(h + next, 3 * shell_point_values(law.history()));
+    const Three z{height(i), height(i + 1), height(i + 2)};
+    ShellPoint<Three> point = at(z, h);
+    const PlaneStress<Three>& s = point.stress;
+    const Three old_sum = s.xx + s.yy, old_work = contraction(s, point.strain);
+    law.update(point, step, h + 5 * block_lanes);
+    store_stress(s, h);
+    const Three work = old_work + contraction(s, point.strain);
+    add_work(i, work.a, t), add_work(i + 1, work.b, t), add_work(i + 2, work.c, t);
+    if (p.thins) {
+      const Three own = point.thickness_strain + Three(p.elastic_thinning) * (s.xx + s.yy - old_sum);
+      add_thinning(i, own.a, t), add_thinning(i + 1, own.b, t), add_thinning(i + 2, own.c, t);
+    }
+#pragma GCC unroll 1
+    for (int k = i; k < i + 3; ++k) add_stress(load_stress<R>(values(k)), height(k), weight(k), t);
+  }
+};
+
 template <class R, class Law>
 KARDAN_INLINE ShellResultants<R> through_thickness(const ShellProperties& p, const Law& law, const ShellStrains<R>& r,
                                                    const StepTime& step, const ShellThickness<R>& thickness, double* history) {
   ShellResultants<R> t;
-  R failed{};
-  const R spin = R(-0.5) * r.xy;  // the axes follow a line of the material along x, which turns by half of the shear more than it
-  for (int i = 0; i < p.points; ++i) {
-    double* h = history + static_cast<std::size_t>(i) * shell_point_values(law.history()) * block_lanes;
-    ShellPoint<R> point;
-    PlaneStress<R>& s = point.stress;
-    s = {R::load(h), R::load(h + block_lanes), R::load(h + 2 * block_lanes), R::load(h + 3 * block_lanes),
-         R::load(h + 4 * block_lanes)};
-    const PlaneStress<R> old = s;
-    const R z = thickness.half * R(p.zeta[i]) + thickness.offset, w = thickness.half * R(p.weight[i]);
-    const PlaneStress<R>& d = point.strain = {r.xx + z * r.kxx, r.yy + z * r.kyy, r.xy + z * r.kxy, r.yz, r.zx};
-    point.spin = spin;
-    law.update(point, step, h + 5 * block_lanes);
-    t.stiffening = max(t.stiffening, point.stiffening);
-    failed += point.failed;
-    t.work += R(0.5) * w * ((old.xx + s.xx) * d.xx + (old.yy + s.yy) * d.yy + (old.xy + s.xy) * d.xy + (old.yz + s.yz) * d.yz +
-                            (old.zx + s.zx) * d.zx);
-    if (p.thins) {
-      const R elastic = R(p.elastic_thinning) * (s.xx + s.yy - old.xx - old.yy);
-      t.thinning += R(0.5 * p.weight[i]) * (point.thickness_strain + elastic);
-    }
-    s.xx.store(h);
-    s.yy.store(h + block_lanes);
-    s.xy.store(h + 2 * block_lanes);
-    s.yz.store(h + 3 * block_lanes);
-    s.zx.store(h + 4 * block_lanes);
-    const R wz = w * z;
-    t.fxx += w * s.xx;
-    t.fyy += w * s.yy;
-    t.fxy += w * s.xy;
-    t.qy += w * s.yz;
-    t.qx += w * s.zx;
-    t.mxx += wz * s.xx;
-    t.myy += wz * s.yy;
-    t.mxy += wz * s.xy;
+  const ThicknessPoints<R, Law> points{p, law, r, step, thickness, history};
+  int i = 0;
+  if constexpr (Law::yields) {
+    while (i < p.points && points.template add_one<true>(i, t)) ++i;
+    // A return mapping is a chain of roots and divisions: three of them side by side.
+    for (; i + 3 <= p.points; i += 3) points.add_three(i, t);
   }
-  t.intact = select(failed < R(p.failing_points), R(1.0), R(0.0));
+  for (; i < p.points; ++i) points.template add_one<false>(i, t);
+  t.intact = select(t.failed < R(p.failing_points), R(1.0), R(0.0));
   return t;
 }
 
@@ -262,12 +332,19 @@ KARDAN_INLINE void nodal_forces(const ShellAxes<R>& s, const ShellResultants<R>&
   force.set(3, first, -f[1] - hf, q34 - hm - m[1]);
 }
 
+/// The lanes in which two nodes of the elements are the same.
+KARDAN_INLINE Pack::Mask same_index(const std::uint16_t* a, const std::uint16_t* b) {
+  typedef std::uint16_t Indices __attribute__((vector_size(native_lanes * sizeof(std::uint16_t))));
+  return __builtin_convertvector(load_as<Indices>(a), Pack::Mask) == __builtin_convertvector(load_as<Indices>(b), Pack::Mask);
+}
+
 /// Lanes [first, first + R::lanes) of a block.
 template <class R, class Law>
 KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, const TileWork& work, const std::uint16_t* connectivity,
                               ShellBlock& block, double* history, std::size_t first) {
   const R dt(work.step.dt), half_dt(0.5 * work.step.dt), zero(0.0);
-  const R n[2] = {R::load(block.share[0] + first), R::load(block.share[1] + first)};
+  const auto triangle = same_index(connectivity + 2 * block_lanes + first, connectivity + 3 * block_lanes + first);
+  const R n[2] = {select(triangle, R(1.0 / 3.0), R(0.25)), select(triangle, R(1.0 / 6.0), R(0.25))};
   history += first;
   double* kept = history + static_cast<std::size_t>(p.points) * shell_point_values(law.history()) * block_lanes;
   const ShellThickness<R> thickness(p, kept);
@@ -287,23 +364,14 @@ KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, const Ti
     t = through_thickness(p, law, strains, work.step, thickness, history);
     const R active = R::load(block.alive + first);
     select(active > zero, t.work * before.area, zero).store(block.internal + first);
+    ask_for(kept + shell_history_size(p, law.history()) * block_lanes, shell_history_size(p, 0) - shell_kept(p, 0));
     const R hourglass_work = hourglass_forces(p, before, strains, dt, thickness.value, kept, hg);
     select(active > zero, hourglass_work, zero).store(block.hourglass + first);
     (active * t.intact).store(block.alive + first);
   }
   if (p.thins) t.scale(thickness.update(p, t.thinning));
-  stable_step(p, now, x, R::load(block.triangle + first), t.stiffening).store(block.time_step + first);
+  stable_step(p, now, x, select(triangle, R(1.0), zero), t.stiffening).store(block.time_step + first);
   nodal_forces(now, t, hg, n, block.force, first);
-}
-
-/// What tells triangles from quadrilaterals.
-KARDAN_INLINE void find_triangles(const std::uint16_t* connectivity, ShellBlock& block) {
-  for (std::size_t l = 0; l < block_lanes; ++l) {
-    const bool triangle = connectivity[2 * block_lanes + l] == connectivity[3 * block_lanes + l];
-    block.triangle[l] = triangle ? 1.0 : 0.0;
-    block.share[0][l] = triangle ? 1.0 / 3.0 : 0.25;
-    block.share[1][l] = triangle ? 1.0 / 6.0 : 0.25;
-  }
 }
 
 /// The loop over a tile of shells of any formulation; Law is Inlined or Called, `pack` computes the lanes from `first` on.
@@ -314,7 +382,6 @@ KARDAN_INLINE void for_each_shell_pack(TileWork& work, ElementPack&& pack) {
   ShellBlock block;
   for_each_block<4>(work, 6, shell_history_size(p, law.history()), block,
                     [&](const std::uint16_t* connectivity, std::size_t, double* history) {
-                      find_triangles(connectivity, block);
                       for (std::size_t first = 0; first < block_lanes; first += Pack::lanes) {
                         pack(p, law, connectivity, block, history, first);
                       }

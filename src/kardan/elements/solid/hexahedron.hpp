@@ -15,6 +15,9 @@ KARDAN_INLINE void hexahedron_pack(const SolidProperties& p, const Law& law, con
   const std::size_t first = place.first;
   constexpr std::size_t hourglass_values = 12;
   const R dt(step.dt);
+  const std::size_t own = (solid_history::own + hourglass_values) * block_lanes, values_of_point = 6 + law.history();
+  const double* const next = history + own + values_of_point * block_lanes;  // of the next block
+  ask_for(next, solid_history::own + hourglass_values);
   const HexahedronMotion<R> m(place);
   const auto good = m.now.volume > R(0.0);
 
@@ -27,7 +30,8 @@ KARDAN_INLINE void hexahedron_pack(const SolidProperties& p, const Law& law, con
   const PointMotion<R> motion = point_motion(l, dt);
   const BulkViscosity<R> bulk(p, m.now.volume, inverse_volume, m.length, divergence, history);
   point.viscosity = bulk.mean();
-  R work = update_point(law, step, motion, point, history + (solid_history::own + hourglass_values) * block_lanes);
+  ask_for(next + own, values_of_point);
+  R work = update_point(law, step, motion, point, history + own);
   work += bulk.work(divergence, dt);
   Vec3T<R> hourglass[4];
   const R scale = hourglass_scale(p, m, bulk.size * bulk.size, inverse_between, dt);

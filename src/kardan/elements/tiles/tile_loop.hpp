@@ -14,6 +14,8 @@ template <class Law>
 struct Inlined {
   const Law& law;
 
+  /// Whether the law tells by elastic_step() that nothing yields.
+  static constexpr bool yields = requires { &Law::template elastic_step<Pack>; };
   KARDAN_INLINE explicit Inlined(const LawOfTile& of_tile) : law(*static_cast<const Law*>(of_tile.constants)) {}
   static constexpr std::size_t history() { return Law::history; }
   static constexpr std::size_t tensors() {
@@ -24,12 +26,17 @@ struct Inlined {
   KARDAN_INLINE void update(Point& p, const StepTime& t, double* values) const {
     law.update(p, t, values);
   }
+  template <class Point>
+  KARDAN_INLINE bool elastic_step(Point& p, const double* values) const {
+    return law.elastic_step(p, values);
+  }
 };
 
 /// Any law, called through its pointer.
 struct Called {
   const LawOfTile& law;
 
+  static constexpr bool yields = false;
   KARDAN_INLINE explicit Called(const LawOfTile& of_tile) : law(of_tile) {}
   KARDAN_INLINE std::size_t history() const { return law.history; }
   KARDAN_INLINE std::size_t tensors() const { return law.tensors; }
@@ -124,6 +131,17 @@ KARDAN_INLINE void copy_forces(const double (&force)[Nodes][Components][block_la
   std::memcpy(to, force, sizeof force);
 }
 
+/// Sets which of the first `lanes` lanes of a block are alive; `alive` null: all of them. By whole packs: a load of a pack would have to
+/// wait until stores of its single lanes have left the processor.
+KARDAN_INLINE void set_alive(std::size_t lanes, const double* alive, BlockReport& block) {
+  Pack::Mask lane;
+  for (std::size_t l = 0; l < Pack::lanes; ++l) lane[l] = static_cast<std::int64_t>(l);
+  for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) {
+    const Pack own = alive ? Pack::load(alive + l) : Pack(1.0);
+    select(lane < static_cast<std::int64_t>(lanes) - static_cast<std::int64_t>(l), own, Pack(0.0)).store(block.alive + l);
+  }
+}
+
 /// Runs `element_block(connectivity, lanes, history)` over the blocks of a tile and gathers what the block reports. `block` is the
 /// formulation's work space, which element_block fills; alive is set before, also 0 in the empty lanes of the last block.
 template <std::size_t NodesPerElement, class Block, class F>
@@ -133,7 +151,7 @@ KARDAN_INLINE void for_each_block(TileWork& work, std::size_t components, std::s
   TileReport report;
   for (std::size_t first = 0, b = 0; first < work.elements; first += block_lanes, ++b) {
     const std::size_t lanes = work.elements - first < block_lanes ? work.elements - first : block_lanes;
-    for (std::size_t l = 0; l < block_lanes; ++l) block.alive[l] = l >= lanes ? 0.0 : work.alive ? work.alive[first + l] : 1.0;
+    set_alive(lanes, work.alive ? work.alive + first : nullptr, block);
     element_block(work.connectivity + b * NodesPerElement * block_lanes, lanes, work.history + b * history_size * block_lanes);
     if (work.element_force) {
       copy_forces(block.force, block.alive, work.element_force + b * NodesPerElement * components * block_lanes);

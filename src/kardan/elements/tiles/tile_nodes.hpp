@@ -16,8 +16,8 @@ namespace kardan::KARDAN_ISA_NAMESPACE {
 typedef double Four __attribute__((vector_size(4 * sizeof(double))));
 typedef double Two __attribute__((vector_size(2 * sizeof(double))));
 
-template <class V>
-KARDAN_INLINE V load_as(const double* p) {
+template <class V, class T>
+KARDAN_INLINE V load_as(const T* p) {
   V v;
   std::memcpy(&v, p, sizeof v);
   return v;
@@ -25,6 +25,12 @@ KARDAN_INLINE V load_as(const double* p) {
 template <class V>
 KARDAN_INLINE void store_as(const V& v, double* p) {
   std::memcpy(p, &v, sizeof v);
+}
+
+/// Asks the memory for values of a pack that will be needed soon. A few at a time, spread over a kernel: a core waits for some ten cache
+/// lines at once, and what the next block needs is more than that.
+KARDAN_INLINE void ask_for(const double* values, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(values + i * block_lanes, 1);
 }
 
 /// The vectors at base + stride * index[lane] of the pack's lanes; a fourth value behind each is read and left.
@@ -112,18 +118,31 @@ struct alignas(64) NodalForces {
   }
   /// Takes the forces of the lanes that are alive from the slots of the tile's nodes: what acts on the element acts against its node.
   KARDAN_INLINE void scatter(const std::uint16_t* connectivity, const double* alive, double* slots) const {
-    for (std::size_t a = 0; a < Nodes; ++a) {
-      for (std::size_t l = 0; l < block_lanes; ++l) {
-        if (!(alive[l] > 0)) continue;
-        double* const slot = slots + Components * connectivity[a * block_lanes + l];
-        if constexpr (Components == 6) {
-          store_as(load_as<Four>(slot) - load_as<Four>(value[a][l]), slot);
-          store_as(load_as<Two>(slot + 4) - load_as<Two>(value[a][l] + 4), slot + 4);
-        } else {
-          store_as(load_as<Two>(slot) - load_as<Two>(value[a][l]), slot);
-          slot[2] -= value[a][l][2];
+    bool all = true;
+    for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) all &= !Pack::any(~(Pack::load(alive + l) > Pack(0.0)));
+    const auto of_lanes = [&](auto&& lives) {
+      for (std::size_t a = 0; a < Nodes; ++a) {
+        for (std::size_t l = 0; l < block_lanes; ++l) {
+          if (lives(l)) take(connectivity[a * block_lanes + l], value[a][l], slots);
         }
       }
+    };
+    if (all) {
+      of_lanes([](std::size_t) { return true; });
+    } else {
+      of_lanes([alive](std::size_t l) { return alive[l] > 0; });
+    }
+  }
+
+ private:
+  KARDAN_INLINE static void take(std::size_t node, const double* own, double* slots) {
+    double* const slot = slots + Components * node;
+    if constexpr (Components == 6) {
+      store_as(load_as<Four>(slot) - load_as<Four>(own), slot);
+      store_as(load_as<Two>(slot + 4) - load_as<Two>(own + 4), slot + 4);
+    } else {
+      store_as(load_as<Two>(slot) - load_as<Two>(own), slot);
+      slot[2] -= own[2];
     }
   }
 };

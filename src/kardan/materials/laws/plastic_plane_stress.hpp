@@ -12,6 +12,9 @@
 // where the three k are equal). With the parts u of S, the increases d = (Y' + k)/(Y + k p) of their denominators, F1 and F2 the sums of
 // u d and u d^2,
 //   dp = S (sqrt(S) - 1)/F1 (1 + e),   e = 3/2 (sqrt(S) - 1) (F2 S - F1^2)/F1^2.
+// Roots and divisions are what a step costs. sqrt(S) - 1 is taken as (S - 1) (S + 3)/(4 (S + 1)), Heron's step from the mean of S and 1,
+// which is too large by less than (S - 1)^4/128 near the end and shares its division with 1/F1. Far from it, sqrt(S) >> 4, a step goes too
+// far by sqrt(S)/4 at most; beyond the solution S is small, and the steps go back to a quarter each, as long as that is needed.
 // At p = 0 all denominators are Y, so that the first step costs little. A step from where |q/Y - 1| is below 5e-4 leaves less than 1e-10:
 // the lane is done with it, and the reciprocals of its denominators follow by their series. Where p leaves a piece of the
 // hardening curve, the next piece is looked up and the iteration goes on. A lane that is done is not touched any more, so its result
@@ -63,8 +66,18 @@ struct PlasticPlaneStress {
   [[gnu::always_inline]] void update(ShellPoint<R>& p, const StepTime& t, double* history_values) const {
     const R sum = p.stress.xx + p.stress.yy;
     update(p.stress, p.strain, t.dt, history_values);
-    // Elastic part -(nu/E) d(sum); the plastic part keeps the volume.
-    p.thickness_strain = R(elastic_bulk) * (p.stress.xx + p.stress.yy - sum) - (p.strain.xx + p.strain.yy);
+    find_thickness_strain(p, sum);
+  }
+  /// update() where the static yield stress is reached nowhere; if it is, false, and nothing has changed.
+  template <class R>
+  [[gnu::always_inline]] bool elastic_step(ShellPoint<R>& p, const double* history_values) const {
+    PlaneStress<R> s = p.stress;
+    elastic.add_increment(s, p.strain);
+    if (R::any(exceeded(Trial<R>(s), R::load(history_values + block_lanes)))) return false;
+    const R sum = p.stress.xx + p.stress.yy;
+    p.stress = s;
+    find_thickness_strain(p, sum);
+    return true;
   }
   template <class R>
   [[gnu::always_inline]] void update(PlaneStress<R>& s, const PlaneStress<R>& d, double dt, double* history_values) const {
@@ -72,15 +85,13 @@ struct PlasticPlaneStress {
     double* const yield_values = history_values + block_lanes;
     const R static_yield = R::load(yield_values);
     const Trial<R> t(s);
-    constexpr double margin = (1 + tolerance) * (1 + tolerance);
-    auto plastic = t.in_plane_sum + t.in_plane_rest + t.transverse > R(margin) * (static_yield * static_yield);
+    auto plastic = exceeded(t, static_yield);
     if (!R::any(plastic)) return;
     R rate(1.0);
     if (rate_law.active()) {
       const R zz = d.xx + d.yy;
       rate = rate_law.factor(d.xx * d.xx + d.yy * d.yy + zz * zz + R(0.5) * (d.xy * d.xy + d.yz * d.yz + d.zx * d.zx), dt);
-      const R yield = rate * static_yield;
-      plastic = t.in_plane_sum + t.in_plane_rest + t.transverse > R(margin) * (yield * yield);
+      plastic = exceeded(t, rate * static_yield);
       if (!R::any(plastic)) return;
     }
     const R strain = R::load(history_values);
@@ -107,6 +118,17 @@ struct PlasticPlaneStress {
       transverse = R(3.0) * (s.yz * s.yz + s.zx * s.zx);
     }
   };
+  /// Where the trial stress is beyond the yield stress.
+  template <class R>
+  [[gnu::always_inline]] static auto exceeded(const Trial<R>& t, const R& yield) {
+    constexpr double margin = (1 + tolerance) * (1 + tolerance);
+    return t.in_plane_sum + t.in_plane_rest + t.transverse > R(margin) * (yield * yield);
+  }
+  /// Elastic part -(nu/E) d(sum); the plastic part keeps the volume. @param sum xx + yy before
+  template <class R>
+  [[gnu::always_inline]] void find_thickness_strain(ShellPoint<R>& p, const R& sum) const {
+    p.thickness_strain = R(elastic_bulk) * (p.stress.xx + p.stress.yy - sum) - (p.strain.xx + p.strain.yy);
+  }
   /// Increment of the effective plastic strain, factors on the parts of the trial stress, static yield stress at the end.
   template <class R>
   struct Return {
@@ -117,10 +139,11 @@ struct PlasticPlaneStress {
   [[gnu::always_inline]] R first_increment(const Trial<R>& t, const Mask& plastic, const R& yield, const R& slope) const {
     const R d_a = slope + R(k_a), d_b = slope + R(k_b), d_t = slope + R(k_t);
     const R ua = t.in_plane_sum * d_a, ub = t.in_plane_rest * d_b, ut = t.transverse * d_t;
-    const R square = t.in_plane_sum + t.in_plane_rest + t.transverse, a1 = ua + ub + ut, a2 = ua * d_a + ub * d_b + ut * d_t;
-    const R over = sqrt(square) - yield, ya1 = yield * a1, inverse = R(1.0) / (ya1 * a1);
-    const R e = min(R(1.5) * over * (a2 * square - a1 * a1) * inverse, R(0.25));
-    return select(plastic, over * square * (ya1 * inverse) * (R(1.0) + e + e * e), R(0.0));
+    const R square = t.in_plane_sum + t.in_plane_rest + t.transverse, f1 = ua + ub + ut, f2 = ua * d_a + ub * d_b + ut * d_t;
+    const R y2 = yield * yield, f1_square = f1 * f1, below = R(4.0) * y2 * (square + y2), inverse = R(1.0) / (below * f1_square);
+    const R excess = excess_above(square, y2) * f1_square * inverse, by_f1_square = below * inverse;
+    const R e = min(R(1.5) * excess * (f2 * square - f1_square) * by_f1_square, R(0.25));
+    return select(plastic, yield * excess * square * f1 * by_f1_square * (R(1.0) + e + e * e), R(0.0));
   }
   template <class R, class Mask>
   [[gnu::always_inline]] Return<R> return_map(const Trial<R>& t, const Mask& plastic, const R& strain, const R& rate) const {
@@ -139,7 +162,8 @@ struct PlasticPlaneStress {
               w = t.transverse * (to_transverse * to_transverse);
       const R d_a = to_sum * (slope + R(k_a)), d_b = to_rest * (slope + R(k_b)), d_t = to_transverse * (slope + R(k_t));
       const R ua = u * d_a, ub = v * d_b, ut = w * d_t, square = u + v + w, f1 = ua + ub + ut, f2 = ua * d_a + ub * d_b + ut * d_t;
-      const R excess = sqrt(square) - R(1.0), by_f1 = R(1.0) / f1, ratio = square * by_f1;
+      const R below = R(4.0) * (square + R(1.0)), both = R(1.0) / (f1 * below);
+      const R excess = excess_above(square, R(1.0)) * f1 * both, by_f1 = below * both, ratio = square * by_f1;
       const R step = excess * ratio * (R(1.0) + R(1.5) * excess * (f2 * ratio - f1) * by_f1), end = yield + slope * step;
       r.increment += select(open, step, R(0.0));
       r.sum = select(open, end * to_sum * reciprocal_near_one(d_a * step), r.sum);
@@ -154,6 +178,9 @@ struct PlasticPlaneStress {
     }
     return r;
   }
+  /// 4 Y^2 (q^2 + Y^2) (q/Y - 1) from the squares of q and Y.
+  template <class R>
+  [[gnu::always_inline]] static R excess_above(const R& q2, const R& y2) { return (q2 - y2) * (q2 + R(3.0) * y2); }
   /// 1/(1 + x) for small x, but for x^4.
   template <class R>
   [[gnu::always_inline]] static R reciprocal_near_one(const R& x) { return (R(1.0) - x) * (R(1.0) + x * x); }
