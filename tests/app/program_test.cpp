@@ -116,7 +116,7 @@ TEST_F(Program, FreeFallThroughTheWholeProgram) {
   EXPECT_EQ(s["program"]["name"], "kardan");
   EXPECT_TRUE(s["warnings"].is_array());
   double phases = 0;
-  for (const char* phase : {"setup", "loads", "elements", "time_step", "rigid", "nodes", "ledger", "observers"})
+  for (const char* phase : {"setup", "loads", "elements", "time_step", "contact", "rigid", "nodes", "ledger", "observers"})
     phases += s["wall_seconds"][phase].get<double>();
   EXPECT_GT(phases, 0);
   EXPECT_LE(phases, s["wall_seconds"]["total"].get<double>());

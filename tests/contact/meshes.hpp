@@ -61,6 +61,20 @@ struct Meshes : HandmadeModel {
     for (NodeIndex n = first; n < end; ++n) v.nodes.push_back(n);
     model.initial_velocities.push_back(v);
   }
+  /// A part that stands still.
+  PartIndex fixed_shell_part(double thickness) {
+    RigidMaterial law{.density = 7800, .youngs_modulus = 210e9, .poissons_ratio = 0.3};
+    law.cmo = 1;
+    law.con1 = law.con2 = 7;
+    return shell_part(law, thickness);
+  }
+  /// A free node with mass.
+  NodeIndex point(const Vec3& x, double mass, const Vec3& velocity) {
+    const NodeIndex n = node(x);
+    model.masses.push_back({static_cast<UserId>(model.masses.size()) + 1, n, mass, none});
+    throw_from(n, n + 1, velocity);
+    return n;
+  }
   NodeIndex node_count() const { return static_cast<NodeIndex>(model.nodes.size()); }
 
   static ContactSide side(std::vector<PartIndex> parts) {
@@ -76,6 +90,17 @@ struct Meshes : HandmadeModel {
     c.keyword = "*CONTACT_AUTOMATIC_SINGLE_SURFACE";
     c.single = c.automatic = true;
     c.tracked = side(std::move(parts));
+    return model.contacts.emplace_back(c);
+  }
+  /// *CONTACT_AUTOMATIC_NODES_TO_SURFACE.
+  Contact& nodes_to_surface(std::vector<NodeIndex> tracked, std::vector<PartIndex> reference) {
+    Contact c;
+    c.id = static_cast<UserId>(model.contacts.size()) + 1;
+    c.keyword = "*CONTACT_AUTOMATIC_NODES_TO_SURFACE";
+    c.automatic = true;
+    c.tracked.kind = ContactSide::Kind::nodes;
+    c.tracked.nodes = std::move(tracked);
+    c.reference = side(std::move(reference));
     return model.contacts.emplace_back(c);
   }
   /// *CONTACT_AUTOMATIC_SURFACE_TO_SURFACE.

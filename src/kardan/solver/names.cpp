@@ -3,7 +3,7 @@
 namespace kardan {
 
 const char* to_string(Phase phase) {
-  static constexpr const char* names[] = {"setup", "loads", "elements", "time step", "rigid", "nodes", "ledger",
+  static constexpr const char* names[] = {"setup", "loads", "elements", "time step", "contact", "rigid", "nodes", "ledger",
                                           "observers"};
   return names[static_cast<int>(phase)];
 }

@@ -12,7 +12,7 @@
 namespace kardan {
 
 /// The stages of a step, in their order; `setup` is everything before the first one.
-enum class Phase { setup, loads, elements, time_step, rigid, nodes, ledger, observers, count };
+enum class Phase { setup, loads, elements, time_step, contact, rigid, nodes, ledger, observers, count };
 const char* to_string(Phase phase);
 
 /// Why a run ended.

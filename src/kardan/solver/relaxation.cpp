@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "kardan/base/rotation.hpp"
+#include "kardan/contact/contact_system.hpp"
 #include "kardan/elements/element_system.hpp"
 #include "kardan/loads/load_system.hpp"
 #include "kardan/solver/node_mover.hpp"
@@ -134,6 +135,7 @@ void Solver::relax() {
     loads_->apply(model_, state_);
     elements_->internal_forces(model_, state_);
     choose_time_step(*relaxation_rule_);
+    contacts_->apply(state_);
     scale_velocities(state_, control.factor);
     kick();
     watch.add(motion_energy(state_));
@@ -147,6 +149,7 @@ void Solver::relax() {
   looked_at_ = true;
   state_.clock = Clock{};
   state_.energy.external_work = 0;
+  contacts_->restart(state_);
   initial.restore(state_);
   loads_->restart(model_, state_);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kardan/contact/contact_system.hpp"
 #include "kardan/contact/rigid_wall.hpp"
 #include "kardan/elements/element_system.hpp"
 #include "kardan/loads/load_system.hpp"
@@ -68,6 +69,7 @@ void Solver::set_up(const SolverOptions& options, Diagnostics& diagnostics) {
   if (!diagnostics.ok()) return;
   LoadSystem::set_initial_velocities(model_, state_, diagnostics);
   loads_ = std::make_unique<LoadSystem>(model_, state_, diagnostics);  // takes out velocities against supports
+  contacts_ = std::make_unique<ContactSystem>(model_, state_, diagnostics);
   if (!diagnostics.ok()) return;
   rigid_->set_initial_velocities(model_, state_, diagnostics);
   walls_ = std::make_unique<RigidWalls>(model_, state_, diagnostics);
@@ -132,6 +134,8 @@ bool Solver::step() {
     stop_ = reason_to_stop();
     find_due_observers();
     timers_.lap(Phase::time_step);
+    contacts_->apply(state_);
+    timers_.lap(Phase::contact);
     kick();
     if (looked_at_) nodes_->settle(state_);
     timers_.lap(Phase::nodes);
@@ -201,6 +205,7 @@ void Solver::account() {
   if (!looked_at_) return;
   elements_->account(model_, state_);
   rigid_->account(model_, state_);
+  contacts_->account(state_);
   walls_->account(state_);
   nodes_->account(state_);
   if (state_.clock.cycle == 0) energy.initial = energy.total();

@@ -23,6 +23,7 @@
 
 namespace kardan {
 
+class ContactSystem;
 class ElementSystem;
 class RigidWalls;
 class LoadSystem;
@@ -91,6 +92,7 @@ class Solver {
   std::unique_ptr<ElementSystem> elements_;
   std::unique_ptr<LoadSystem> loads_;
   std::unique_ptr<RigidSystem> rigid_;
+  std::unique_ptr<ContactSystem> contacts_;
   std::unique_ptr<RigidWalls> walls_;
   std::unique_ptr<NodeMover> nodes_;
   std::unique_ptr<TimeStepRule> rule_, relaxation_rule_;

@@ -1,0 +1,190 @@
+#include "kardan/contact/penalty_pass.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace kardan {
+
+namespace {
+
+constexpr Index chunk_nodes = 256;
+
+/// Touches with segments that would be lost from the list because the node is deeper in them than the list reaches.
+std::vector<std::pair<Index, Index>> deep_pairs(const std::vector<Touch>& touches, const Surface& nodes, const Surface& segments,
+                                                double margin) {
+  std::vector<std::pair<Index, Index>> pairs;
+  for (const Touch& t : touches) {
+    const Segment& s = segments.segments()[t.segment];
+    if (t.penetration - s.half_thickness - nodes.nodes()[t.place].half_thickness < 0.5 * margin) continue;
+    for (const NodeIndex n : s.nodes)
+      for (const Index near : segments.segments_at(segments.place_of(n))) pairs.emplace_back(t.place, near);
+  }
+  return pairs;
+}
+
+}  // namespace
+
+PenaltyPass::PenaltyPass(const Surface& nodes, const Surface& segments) : nodes_(&nodes), segments_(&segments) {
+  const auto count = static_cast<Index>(nodes.nodes().size());
+  for (Index begin = 0; begin < count; begin += chunk_nodes) {
+    Chunk chunk;
+    chunk.begin = begin;
+    chunk.end = std::min(begin + chunk_nodes, count);
+    chunks_.push_back(std::move(chunk));
+  }
+  corner_stiffness_.resize(segments.segments().size());
+  for (std::size_t s = 0; s < corner_stiffness_.size(); ++s)
+    for (std::size_t k = 0; k < 4; ++k)
+      corner_stiffness_[s][k] = segments.nodes()[segments.place_of(segments.segments()[s].nodes[k])].stiffness;
+}
+
+void PenaltyPass::search(const State& state, double margin) {
+  std::vector<std::pair<Index, Index>> always;
+  for (const Chunk& chunk : chunks_)
+    for (const auto& pair : deep_pairs(chunk.touches, *nodes_, *segments_, margin)) always.push_back(pair);
+  SearchInput input;
+  input.nodes = nodes_;
+  input.segments = segments_;
+  input.x = &state.nodes.x;
+  input.body = &state.nodes.body;
+  input.dead_node = &dead_node;
+  input.dead_segment = &dead_segment;
+  input.margin = margin;
+  std::erase_if(always, [&](const auto& pair) {
+    const auto& corner = segments_->segments()[pair.second].nodes;
+    return std::find(corner.begin(), corner.end(), nodes_->nodes()[pair.first].node) != corner.end() ||
+           (!dead_segment.empty() && dead_segment[pair.second]) || (!dead_node.empty() && dead_node[pair.first]);
+  });
+  search_.find(input, always, candidates_);
+  wake_.assign(candidates_.segment.size(), 0.0);
+  active_.clear();
+  for (Chunk& chunk : chunks_) {
+    chunk.first_active = active_.size();
+    for (Index p = chunk.begin; p < chunk.end; ++p)
+      if (candidates_.first[p] != candidates_.first[p + 1]) active_.push_back(p);
+    chunk.end_active = active_.size();
+  }
+  node_wake_.assign(active_.size(), 0.0);
+}
+
+void PenaltyPass::add_work(const State& state, const Touch& touch, PassEnergy& energy) const {
+  const std::vector<Vec3>& v = state.nodes.v;
+  const double half = 0.5 * state.clock.dt_previous;
+  const Segment& s = segments_->segments()[touch.segment];
+  Vec3 corner;
+  for (std::size_t k = 0; k < 4; ++k) corner += v[s.nodes[k]] * touch.weights[k];
+  energy.nodes -= half * dot(touch.force, v[nodes_->nodes()[touch.place].node]);
+  energy.segments += half * dot(touch.force, corner);
+}
+
+/// Forces of the touches of one node, those of chunk.touches from `first` on.
+void PenaltyPass::push(const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass, std::size_t first,
+                       Chunk& chunk) const {
+  const std::vector<Vec3>& v = *frame.v;
+  for (std::size_t i = first; i < chunk.touches.size(); ++i) {
+    Touch& t = chunk.touches[i];
+    if (t.share == 0) continue;
+    const SurfaceNode& node = nodes_->nodes()[t.place];
+    const Segment& s = segments_->segments()[t.segment];
+    const double own = inverse_mass[node.node];
+    TouchMotion motion;
+    motion.velocity = v[node.node];
+    motion.dt = frame.dt;
+    motion.inverse_mass = own;
+    double largest = own, masses = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double corner = inverse_mass[s.nodes[k]], w = t.weights[k];
+      motion.velocity -= v[s.nodes[k]] * w;
+      motion.inverse_mass += w * w * corner;
+      motion.stiffness += w * corner_stiffness_[t.segment][k];
+      largest = std::max(largest, corner);
+      masses += corner > 0 ? 0.25 / corner : 0.0;
+    }
+    motion.lightest = largest > 0 ? 1 / largest : 0.0;
+    if (own > 0 || masses > 0) motion.reduced = 1 / (own + (masses > 0 ? 1 / masses : 0.0));
+    chunk.energy.friction += law.apply(node, s, motion, t.share, t);
+  }
+  if (!law.has_friction()) return;
+  for (std::size_t i = first; i < chunk.touches.size(); ++i) {  // what is only remembered sticks like its nearest neighbour
+    Touch& t = chunk.touches[i];
+    double nearest = 0;
+    for (std::size_t j = first; t.share == 0 && j < chunk.touches.size(); ++j) {
+      const Touch& other = chunk.touches[j];
+      if (const double cosine = dot(other.direction, t.direction); other.share > 0 && cosine > nearest) {
+        nearest = cosine;
+        t.friction = other.friction;
+      }
+    }
+  }
+}
+
+void PenaltyPass::evaluate_chunk(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass,
+                                 TouchFinder& finder, Chunk& chunk) {
+  std::swap(chunk.touches, chunk.before);
+  chunk.touches.clear();
+  chunk.energy = {};
+  for (const Touch& t : chunk.before)
+    if (t.share > 0) add_work(state, t, chunk.energy);
+  auto memory = chunk.before.begin();
+  for (std::size_t a = chunk.first_active; a < chunk.end_active; ++a) {
+    const Index place = active_[a];
+    while (memory != chunk.before.end() && memory->place < place) ++memory;
+    auto end = memory;
+    while (end != chunk.before.end() && end->place == place) ++end;
+    if (memory == end && node_wake_[a] > frame.travel) continue;
+    const auto begin = static_cast<std::size_t>(candidates_.first[place]);
+    const std::size_t count = static_cast<std::size_t>(candidates_.first[place + 1]) - begin;
+    const std::size_t first = chunk.touches.size();
+    const std::span<double> wake(wake_.data() + begin, count);
+    finder.find(frame, place, {candidates_.segment.data() + begin, count}, wake, {memory, end}, chunk.touches);
+    node_wake_[a] = *std::min_element(wake.begin(), wake.end());
+    if (chunk.touches.size() > first) push(frame, law, inverse_mass, first, chunk);
+  }
+  for (const Touch& t : chunk.touches)
+    if (t.share > 0) add_work(state, t, chunk.energy);
+}
+
+PassEnergy PenaltyPass::sum_energies() const {
+  PassEnergy sum;
+  for (const Chunk& chunk : chunks_) {
+    sum.nodes += chunk.energy.nodes;
+    sum.segments += chunk.energy.segments;
+    sum.friction += chunk.energy.friction;
+  }
+  return sum;
+}
+
+PassEnergy PenaltyPass::evaluate(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass) {
+  while (finders_.size() < static_cast<std::size_t>(omp_get_max_threads())) finders_.emplace_back(*nodes_, *segments_);
+  const auto count = static_cast<std::ptrdiff_t>(chunks_.size());
+#pragma omp parallel for schedule(dynamic) if (count > 2)
+  for (std::ptrdiff_t c = 0; c < count; ++c) {
+    evaluate_chunk(state, frame, law, inverse_mass, finders_[omp_get_thread_num()], chunks_[c]);
+  }
+  return sum_energies();
+}
+
+PassEnergy PenaltyPass::end(const State& state) {
+  for (Chunk& chunk : chunks_) {
+    chunk.energy = {};
+    for (const Touch& t : chunk.touches)
+      if (t.share > 0) add_work(state, t, chunk.energy);
+    chunk.touches.clear();
+  }
+  return sum_energies();
+}
+
+std::size_t PenaltyPass::touching() const {
+  std::size_t count = 0;
+  for_each([&](const Touch&) { ++count; });
+  return count;
+}
+
+void PenaltyPass::register_state(Registry& registry, const std::string& name) {
+  for (std::size_t c = 0; c < chunks_.size(); ++c)
+    registry.add({name + ".touches." + std::to_string(c), "mixed", "contacts.apply"}, chunks_[c].touches);
+}
+
+}  // namespace kardan

@@ -1,0 +1,83 @@
+// The nodes of one surface against the segments of one: candidates, touches and their forces.
+//
+// Nodes are worked on in chunks, in parallel; touches stand in the order of the nodes, and everything that is summed, is summed in that order.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kardan/contact/penalty_law.hpp"
+#include "kardan/contact/search.hpp"
+#include "kardan/contact/surface.hpp"
+#include "kardan/contact/touch_finder.hpp"
+#include "kardan/state/state.hpp"
+
+namespace kardan {
+
+/// Energies of one step: minus the work of the contact's forces on the nodes, trapezoidal in time.
+struct PassEnergy {
+  double nodes = 0, segments = 0;  ///< on the tracked nodes, on the corners of segments
+  double friction = 0;             ///< dissipated by friction
+};
+
+class PenaltyPass {
+ public:
+  /// The surfaces must outlive the pass.
+  PenaltyPass(const Surface& nodes, const Surface& segments);
+
+  const Surface& nodes() const { return *nodes_; }
+  const Surface& segments() const { return *segments_; }
+
+  /// Lists the candidates anew.
+  void search(const State& state, double margin);
+  /// Touches and forces at t_n. @param inverse_mass  1/mass by node of the model, as stiffnesses see it
+  /// @return energies of the step that ends at t_n
+  PassEnergy evaluate(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass);
+  /// Energies of the step with the forces of its begin only; then no touches are left.
+  PassEnergy end(const State& state);
+
+  /// f(const Touch&) for all touches with a share of force, in order.
+  template <class F>
+  void for_each(F&& f) const {
+    for (const Chunk& chunk : chunks_)
+      for (const Touch& t : chunk.touches)
+        if (t.share > 0) f(t);
+  }
+  std::size_t touching() const;
+
+  /// Set by whoever deletes elements: by segment and by place of a node; empty where none is dead.
+  std::vector<std::uint8_t> dead_segment, dead_node;
+
+  void register_state(Registry& registry, const std::string& name);
+
+ private:
+  /// Nodes begin <= place < end.
+  struct Chunk {
+    Index begin = 0, end = 0;
+    std::size_t first_active = 0, end_active = 0;  ///< into active_
+    std::vector<Touch> touches, before;            ///< at t_n, at t_{n-1}
+    PassEnergy energy;
+  };
+
+  void evaluate_chunk(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass,
+                      TouchFinder& finder, Chunk& chunk);
+  void push(const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass, std::size_t first, Chunk& chunk) const;
+  void add_work(const State& state, const Touch& touch, PassEnergy& energy) const;
+  PassEnergy sum_energies() const;
+
+  const Surface* nodes_;
+  const Surface* segments_;
+  std::vector<std::array<double, 4>> corner_stiffness_;  ///< by segment
+  CandidateSearch search_;
+  Candidates candidates_;
+  std::vector<double> wake_;          ///< by candidate: travel before which it cannot be touched
+  std::vector<Index> active_;         ///< places of nodes that have candidates
+  std::vector<double> node_wake_;     ///< likewise: smallest wake of its candidates
+  std::vector<Chunk> chunks_;
+  std::vector<TouchFinder> finders_;  ///< one a thread
+};
+
+}  // namespace kardan
