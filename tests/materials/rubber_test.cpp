@@ -5,6 +5,7 @@
 
 #include "kardan/base/vec3.hpp"
 #include "kardan/materials/laws/blatz_ko.hpp"
+#include "kardan/materials/laws/frazer_nash.hpp"
 #include "kardan/materials/laws/hyperelastic_rubber.hpp"
 #include "kardan/materials/laws/mooney_rivlin.hpp"
 #include "kardan/materials/laws/ogden.hpp"
@@ -28,6 +29,11 @@ HyperelasticRubber hyperelastic() {
   HyperelasticRubber law;
   law.c10 = 0.5, law.c01 = 0.2, law.c11 = 0.03, law.c20 = -0.02, law.c02 = 0.01, law.c30 = 0.004;
   law.bulk = bulk_modulus(1.4, 0.48);
+  return law;
+}
+FrazerNash frazer_nash() {
+  FrazerNash law{1.1, 0.05, -0.03, 0.01, 0.04, -0.02, -0.3, 0.06, 0};
+  law.bulk = bulk_modulus(law.shear(), 0.48);
   return law;
 }
 Ogden ogden() {
@@ -102,6 +108,7 @@ TEST(Rubber, StressAndStiffnessAreThoseOfTheEnergy) {
   expect_oracle(mooney_rivlin(), "mooney_rivlin");
   expect_oracle(hyperelastic(), "hyperelastic");
   expect_oracle(ogden(), "ogden");
+  expect_oracle(frazer_nash(), "frazer_nash");
 }
 
 /// Uniaxial stretch to 2, equibiaxial to 1.6, and back, in any number of steps: the same stress, and the work of a closed loop vanishes
@@ -139,6 +146,7 @@ TEST(Rubber, EnergyOfAClosedLoopVanishesWithTheSquareOfTheStep) {
   check(mooney_rivlin());
   check(hyperelastic());
   check(ogden());
+  check(frazer_nash());
 }
 
 /// Incompressible uniaxial tension in plane stress with a free side (Treloar 1944): sigma = 2 (l^2 - 1/l) (A + B/l).
@@ -213,6 +221,7 @@ TEST(Rubber, LanesAreIndependent) {
   h.prony.beta[0] = 10, h.prony.beta[1] = 700;
   expect_lanes_independent(h, 0.002);
   expect_lanes_independent(ogden(), 0.002);
+  expect_lanes_independent(frazer_nash(), 0.002);
 }
 
 Model fields_model(FieldMaterial m, std::vector<Curve> curves = {}) {
@@ -257,6 +266,17 @@ TEST(Rubber, ConstantsAreFoundFromTests) {
   EXPECT_NEAR(h->c01, b, 1e-8);
   EXPECT_NEAR(h->c02, 0, 1e-8);
 
+  // The same in invariants of the Green strain: I2 = n/4 - m/2 and I1 = m/2, so a m + b n = (2 a + 4 b) I1 + 4 b I2.
+  m.curves = {{"lcid", 0}};
+  m.values["c100"] = m.values["c010"] = m.values["c020"] = 1;
+  const auto f = made<FrazerNash>(fields_model(m, {curve}), d);
+  ASSERT_TRUE(f);
+  EXPECT_NEAR(f->c100, 2 * a + 4 * b, 1e-8);
+  EXPECT_NEAR(f->c010, 4 * b, 1e-8);
+  EXPECT_NEAR(f->c020, 0, 1e-8);
+  EXPECT_NEAR(f->shear(), 2 * (a + b), 1e-8);
+  m.curves = {{"lcid1", 0}};
+
   // Biaxial tension: nominal stress 2 (l - l^-5)(A + B l^2); pure shear: 2 (l - l^-3)(A + B), which cannot tell A from B.
   m.values["n"] = 1;
   m.values["data"] = 2;
@@ -298,6 +318,10 @@ TEST(Rubber, RefusesWhatItDoesNotCompute) {
   EXPECT_EQ(count(mo, {{"pr", 0.5}, {"a", 1}, {"b", 0}}), 1u);
   EXPECT_EQ(count(mo, {{"pr", 0.49}}), 1u);
   EXPECT_EQ(count(bl, {{"g", 0}}), 1u);
+  const auto fr = [](const Model& m, Diagnostics& d) { return made<FrazerNash>(m, d).has_value(); };
+  EXPECT_EQ(count(fr, {{"pr", 0.495}, {"c100", 1}}), 0u);
+  EXPECT_EQ(count(fr, {{"pr", 0.495}, {"c100", 1}, {"c010", 3}}), 1u);
+  EXPECT_EQ(count(fr, {{"pr", 0.5}, {"c100", 1}}), 1u);
 }
 
 }  // namespace

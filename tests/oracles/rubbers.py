@@ -70,6 +70,15 @@ def ogden(l2, mu=(0.63, 0.0012, -0.01), alpha=(1.3, 5.0, -2.0), nu=0.48):
     return sum(m / a * (sum(x**a for x in star) - 3) for m, a in zip(mu, alpha)) + bulk * (j - 1 - math.log(j))
 
 
+def frazer_nash(l2, c100=1.1, c200=0.05, c300=-0.03, c400=0.01, c110=0.04, c210=-0.02, c010=-0.3, c020=0.06, nu=0.48):
+    j = math.prod(l2) ** 0.5
+    e = [(x * j ** (-2 / 3) - 1) / 2 for x in l2]
+    i, ii = sum(e), e[0] * e[1] + e[1] * e[2] + e[2] * e[0]
+    bulk = 2 * (c100 - c010 / 2) * (1 + nu) / (3 * (1 - 2 * nu))
+    return (c100 * i + c200 * i**2 + c300 * i**3 + c400 * i**4 + c110 * i * ii + c210 * i**2 * ii + c010 * ii + c020 * ii**2
+            + bulk / 2 * (j - 1) ** 2)
+
+
 def energy(law, f):
     return law(eigenvalues(product(f, transpose(f))))
 
@@ -112,7 +121,7 @@ def rotation(rng):
 def main():
     rng = random.Random(27)
     rows = []
-    for law in (blatz_ko, mooney_rivlin, hyperelastic, ogden):
+    for law in (blatz_ko, mooney_rivlin, hyperelastic, ogden, frazer_nash):
         cases = [(I3, l) for l in ([1, 1, 1], [2, 0.71, 0.71], [0.5, 1.4, 1.4], [1.5, 1.5, 0.45], [1.02, 1.02, 1.02])]
         for _ in range(12):
             l = [math.exp(rng.uniform(-0.6, 0.6)) for _ in range(3)]

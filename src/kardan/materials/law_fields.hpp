@@ -25,6 +25,9 @@ class LawFields {
     if (!condition) source_.diagnostics.error(source_.name + " " + what, cure, fields_.keyword);
     return condition;
   }
+  void warn(const std::string& what, const std::string& cure) {
+    source_.diagnostics.warning(source_.name + " " + what, cure, fields_.keyword);
+  }
   /// Refuses a field that is not zero.
   void refuse(std::string_view field, const std::string& what, const std::string& cure) {
     need(fields_.value(field) == 0 && fields_.curve(field) == none && fields_.table(field) == none,

@@ -8,6 +8,7 @@
 #include "kardan/materials/law.hpp"
 #include "kardan/materials/laws/blatz_ko.hpp"
 #include "kardan/materials/laws/crushable_foam.hpp"
+#include "kardan/materials/laws/frazer_nash.hpp"
 #include "kardan/materials/laws/hyperelastic_rubber.hpp"
 #include "kardan/materials/laws/low_density_foam.hpp"
 #include "kardan/materials/laws/mooney_rivlin.hpp"
@@ -28,6 +29,7 @@ KARDAN_ISA_OBJECT(LawKernels, piecewise_plastic_kernels);
 KARDAN_ISA_OBJECT(LawKernels, plastic_kinematic_kernels);
 KARDAN_ISA_OBJECT(LawKernels, blatz_ko_kernels);
 KARDAN_ISA_OBJECT(LawKernels, mooney_rivlin_kernels);
+KARDAN_ISA_OBJECT(LawKernels, frazer_nash_kernels);
 KARDAN_ISA_OBJECT(LawKernels, hyperelastic_rubber_kernels);
 KARDAN_ISA_OBJECT(LawKernels, ogden_kernels);
 KARDAN_ISA_OBJECT(LawKernels, spotweld_kernels);
@@ -111,6 +113,7 @@ constexpr Row rows[] = {
     {18, true, true, false, &make<PowerPlastic>, &power_plastic_kernels_of_isa},
     {24, true, true, true, &make<PiecewisePlastic>, &piecewise_plastic_kernels_of_isa},
     {27, true, true, false, &make<MooneyRivlin>, &mooney_rivlin_kernels_of_isa},
+    {31, true, false, false, &make<FrazerNash>, &frazer_nash_kernels_of_isa},
     {57, true, false, false, &make<LowDensityFoam>, &low_density_foam_kernels_of_isa},
     {63, true, false, false, &make<CrushableFoam>, &crushable_foam_kernels_of_isa},
     {77, true, true, false, &make<HyperelasticRubber>, &hyperelastic_rubber_kernels_of_isa, 'H'},

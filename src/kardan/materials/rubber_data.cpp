@@ -27,6 +27,11 @@ Invariants invariants_of(RubberTest test, double l) {
   return {{l * l + 2 / l - 3, 2 * l - 2 * i2}, {2 * l + i2 - 3, 2 - 2 * i2 / l}, 1};
 }
 
+Invariants of_green_strain(const Invariants& of_stretch) {
+  const Invariant &m = of_stretch.first, &n = of_stretch.second;
+  return {{0.5 * m.value, 0.5 * m.slope}, {0.25 * n.value - 0.5 * m.value, 0.25 * n.slope - 0.5 * m.slope}, of_stretch.faces};
+}
+
 double derivative(const Monomial& m, const Invariants& i) {
   double d = 0;
   if (m.p > 0) d += m.p * std::pow(i.first.value, m.p - 1) * std::pow(i.second.value, m.q) * i.first.slope;
@@ -88,7 +93,7 @@ void check_rubber(LawFields& fields) {
   fields.refuse("g", "frequency independent damping (G, SIGF)", "set G = 0, or use Prony terms");
 }
 
-std::vector<double> fit_invariants(LawFields& fields, const char* lcid, RubberTest test, const std::vector<Monomial>& terms) {
+std::vector<double> fit_invariants(LawFields& fields, const char* lcid, const RubberFit& fit, const std::vector<Monomial>& terms) {
   const double length = fields["sgl"], area = fields["sw"] * fields["st"];
   const Curve* curve = fields.curve(lcid);
   if (!fields.need(curve && length > 0 && area > 0, "has neither constants nor a test to fit them to",
@@ -100,7 +105,8 @@ std::vector<double> fit_invariants(LawFields& fields, const char* lcid, RubberTe
   for (std::size_t i = 0; i < curve->x.size(); ++i) {
     const double stretch = 1 + curve->x[i] / length;
     if (!fields.need(stretch > 0, "has a test curve that makes the specimen shorter than nothing", "correct SGL or the curve")) return {};
-    const Invariants now = invariants_of(test, stretch);
+    Invariants now = invariants_of(fit.test, stretch);
+    if (fit.invariants == RubberInvariants::green_strain) now = of_green_strain(now);
     for (std::size_t k = 0; k < terms.size(); ++k) columns[k].push_back(derivative(terms[k], now));
     right.push_back(curve->y[i] / area);
   }

@@ -21,11 +21,18 @@ void check_rubber(LawFields& fields);
 /// How a test loads its specimen: the field DATA.
 enum class RubberTest { uniaxial = 1, biaxial = 2, pure_shear = 3 };
 
-/// Constants C_k of an incompressible energy W = sum_k C_k I^p_k II^q_k, I = J1 - 3, II = J2 - 3, by least squares of the nominal stress
+/// What the energies are polynomials of: J1 - 3 and J2 - 3, or I1 and I2 of the Green-St. Venant strain, (J1 - 3)/2 and (J2 - 3)/4 - (J1 - 3)/2.
+enum class RubberInvariants { stretch, green_strain };
+struct RubberFit {
+  RubberTest test = RubberTest::uniaxial;
+  RubberInvariants invariants = RubberInvariants::stretch;
+};
+
+/// Constants C_k of an incompressible energy W = sum_k C_k I^p_k II^q_k, I and II the invariants, by least squares of the nominal stress
 /// of a test, force over change of length in the curve `lcid` with SGL, SW, ST; complains where it does not determine them.
 struct Monomial {
   int p = 0, q = 0;
 };
-std::vector<double> fit_invariants(LawFields& fields, const char* lcid, RubberTest test, const std::vector<Monomial>& terms);
+std::vector<double> fit_invariants(LawFields& fields, const char* lcid, const RubberFit& fit, const std::vector<Monomial>& terms);
 
 }  // namespace kardan

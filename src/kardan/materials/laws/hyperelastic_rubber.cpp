@@ -22,7 +22,7 @@ std::optional<HyperelasticRubber> HyperelasticRubber::make(LawSource& source) {
     const std::vector<Monomial> all{{1, 0}, {0, 1}, {1, 1}, {2, 0}, {0, 2}, {3, 0}};
     const std::size_t count = n == 1 ? 2 : (n == 2 ? 5 : 6);
     const std::vector<double> fitted =
-        fit_invariants(m, "lcid1", static_cast<RubberTest>(data), {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)});
+        fit_invariants(m, "lcid1", {static_cast<RubberTest>(data)}, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)});
     for (std::size_t i = 0; i < fitted.size(); ++i) *constant[i] = fitted[i];
   }
   law.prony = prony_series(m);

@@ -10,7 +10,7 @@ std::optional<MooneyRivlin> MooneyRivlin::make(LawSource& source) {
   m.need(nu > 0 && nu < 0.5, "has a Poisson's ratio that is not between 0 and 0.5", "give 0 < PR < 0.5, 0.49 and more for rubber");
   double a = m["a"], b = m["b"];
   if (a == 0 && b == 0) {
-    const std::vector<double> fitted = fit_invariants(m, "lcid", RubberTest::uniaxial, {{1, 0}, {0, 1}});
+    const std::vector<double> fitted = fit_invariants(m, "lcid", {}, {{1, 0}, {0, 1}});
     if (fitted.empty()) return std::nullopt;
     a = fitted[0];
     b = fitted[1];
