@@ -2,6 +2,7 @@
 import pathlib
 
 import beam_cases
+import formulation_cases
 import shell_cases
 import solid_cases
 from deck import card
@@ -81,6 +82,7 @@ def main():
     shell_cases.write_all()
     solid_cases.write_all()
     beam_cases.write_all()
+    formulation_cases.write_all()
 
 
 if __name__ == "__main__":
