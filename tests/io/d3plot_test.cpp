@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "kardan/base/diagnostics.hpp"
@@ -15,26 +13,13 @@ namespace kardan {
 namespace {
 
 using testing::advance;
+using testing::bytes_of;
 using testing::make_model;
 using testing::make_state;
 using testing::output_directory;
+using testing::words_of;
 
 const RunLabel label{"writer test", "kardan test", "01/02/2026"};
-
-std::vector<char> bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file.good()) << path;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-template <class T>
-std::vector<T> words_of(const std::filesystem::path& path) {
-  const std::vector<char> bytes = bytes_of(path);
-  EXPECT_EQ(bytes.size() % sizeof(T), 0u);
-  std::vector<T> words(bytes.size() / sizeof(T));
-  std::memcpy(words.data(), bytes.data(), words.size() * sizeof(T));
-  return words;
-}
 
 nlohmann::json expected_of(const Model& m) {
   nlohmann::json e;

@@ -1,7 +1,13 @@
 // A small model with every kind of thing the result files show, and its state as a known function of time.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
 
 #include "kardan/model/model.hpp"
 #include "kardan/state/state.hpp"
@@ -23,6 +29,22 @@ void advance(const Model& model, State& state, double time, double dt, const Mot
 
 /// A fresh, empty folder for the running test's files.
 std::filesystem::path output_directory();
+
+/// A file as bytes, or as words of one type.
+inline std::vector<char> bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  EXPECT_TRUE(file.good()) << path;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+template <class T>
+std::vector<T> words_of(const std::filesystem::path& path) {
+  const std::vector<char> bytes = bytes_of(path);
+  EXPECT_EQ(bytes.size() % sizeof(T), 0u);
+  std::vector<T> words(bytes.size() / sizeof(T));
+  std::memcpy(words.data(), bytes.data(), words.size() * sizeof(T));
+  return words;
+}
 
 /// Runs a script of tests/io/python with /usr/bin/python3; returns its exit code and what it printed.
 struct ScriptResult {

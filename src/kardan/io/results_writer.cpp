@@ -12,6 +12,7 @@
 #include "kardan/base/diagnostics.hpp"
 #include "kardan/io/ascii/ascii_writer.hpp"
 #include "kardan/io/binout/binout_writer.hpp"
+#include "kardan/io/d3plot/intfor_writer.hpp"
 #include "kardan/io/output_schedule.hpp"
 #include "kardan/io/tables/reporter.hpp"
 
@@ -30,7 +31,7 @@ bool asks(const OutputRequest& r) {
 
 bool known(OutputFile file) {
   const auto& files = Reporter::files();
-  return file == OutputFile::d3plot || std::find(files.begin(), files.end(), file) != files.end();
+  return file == OutputFile::d3plot || file == OutputFile::intfor || std::find(files.begin(), files.end(), file) != files.end();
 }
 
 Requests requests_of(const Model& model, bool& defaulted) {
@@ -56,7 +57,7 @@ void remove_old_results(const std::filesystem::path& directory) {
     const std::string name = entry.path().filename().string();
     bool ours = name == binout_name || name == separations_name;
     for (const OutputFile file : Reporter::files()) ours = ours || name == to_string(file);
-    ours = ours || (name.starts_with("d3plot") && all_digits(name.substr(6)));
+    for (const std::string family : {"d3plot", "intfor"}) ours = ours || (name.starts_with(family) && all_digits(name.substr(family.size())));
     if (ours && entry.is_regular_file()) std::filesystem::remove(entry.path());
   }
 }
@@ -81,6 +82,7 @@ struct ResultsWriter::Impl {
   std::vector<OutputFile> unwritten;
   bool defaulted = false;
   std::optional<D3plotWriter> d3plot;
+  std::optional<IntforWriter> intfor;
   std::optional<BinoutWriter> binout;
   std::map<OutputFile, AsciiWriter> ascii;
   std::optional<AsciiWriter> separations;
@@ -89,6 +91,7 @@ struct ResultsWriter::Impl {
 
   void write(OutputFile file, const OutputRequest& request, const Model& model, const State& state) {
     if (file == OutputFile::d3plot) return d3plot->write_state(model, state);
+    if (file == OutputFile::intfor) return intfor ? intfor->write_state(state) : void();
     const Snapshot snapshot = reporter.take(file, model, state);
     if (snapshot.folders.empty()) return;
     if (request.binary != 1) {
@@ -142,6 +145,8 @@ ResultsWriter::ResultsWriter(const Model& model, const State& state, std::filesy
   }
   if (w.outputs.contains(OutputFile::d3plot))
     w.d3plot.emplace(w.directory / to_string(OutputFile::d3plot), w.label, model, state, options.d3plot);
+  if (w.outputs.contains(OutputFile::intfor) && IntforWriter::has_surfaces(state))
+    w.intfor.emplace(w.directory / to_string(OutputFile::intfor), w.label, model, state, options.d3plot);
 }
 
 ResultsWriter::~ResultsWriter() = default;

@@ -41,7 +41,8 @@ struct EnergyControl {
 
 /// The files a deck can ask for (*DATABASE_<name>).
 enum class OutputFile : std::uint8_t { glstat, matsum, nodout, rbdout, jntforc, bndout, spcforc, deforc, elout, rcforc,
-                                       sleout, rwforc, secforc, swforc, ncforc, abstat, nodfor, d3plot, d3thdt };
+                                       sleout, rwforc, secforc, swforc, ncforc, abstat, nodfor, d3plot, d3thdt,
+                                       intfor };
 const char* to_string(OutputFile file);
 
 struct OutputRequest {

@@ -13,7 +13,7 @@ const char* to_string(JointKind kind) {
 const char* to_string(OutputFile file) {
   static constexpr const char* names[] = {"glstat", "matsum", "nodout", "rbdout", "jntforc", "bndout", "spcforc",
                                           "deforc", "elout", "rcforc", "sleout", "rwforc", "secforc", "swforc",
-                                          "ncforc", "abstat", "nodfor", "d3plot", "d3thdt"};
+                                          "ncforc", "abstat", "nodfor", "d3plot", "d3thdt", "intfor"};
   return names[static_cast<int>(file)];
 }
 

@@ -145,7 +145,8 @@ struct ContactReport {
   /// Forces of this contact on its nodes, by entry of `nodes`; only where SPR or MPR ask for them, valid where somebody looks.
   std::array<std::vector<NodeIndex>, 2> nodes;  ///< tracked, reference side: ascending, fixed
   std::array<std::vector<Vec3>, 2> nodal_force;
-  std::array<std::vector<double>, 2> nodal_area;  ///< share of the segments' area, for pressures
+  std::array<std::vector<double>, 2> nodal_area;  ///< their share of the segments' area at t = 0: a third of a triangle, a quarter of a quadrilateral
+  std::array<std::vector<std::array<NodeIndex, 4>>, 2> segments;  ///< of those sides; a triangle repeats its third node; fixed
 };
 
 /// RWFORC of one rigid wall at t_n.

@@ -33,8 +33,10 @@ struct D3plotWords {
   bool material_types = false;  ///< NDIM = 5: material type section, rigid shells left out of the states
   bool deletion = false;        ///< MDLOPT = 2: a word for each element, 0 = deleted
 
+  std::int64_t shell_words_given = 0;  ///< NV2D of a file without stresses; 0 = of one with them
+
   static constexpr std::int64_t solid_words = 7, line_words = 6;
-  std::int64_t shell_words() const { return 7 * layers + 8 + 4; }
+  std::int64_t shell_words() const { return shell_words_given > 0 ? shell_words_given : 7 * layers + 8 + 4; }
 };
 
 }  // namespace kardan

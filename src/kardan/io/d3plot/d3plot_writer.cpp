@@ -41,6 +41,7 @@ D3plotWriter::D3plotWriter(std::filesystem::path path, const RunLabel& label, co
   KARDAN_ASSERT(options_.word_bytes == 4 || options_.word_bytes == 8);
   words_.layers = state.results.shell.layers;
   words_.material_types = options_.material_types;
+  words_.shell_words_given = options_.shell_words;
   words_.deletion = state.results.deletable();
   if (options_.word_bytes == 4) {
     require_fit(model.nodes.id, "node");
@@ -76,7 +77,7 @@ void D3plotWriter::control_words(const RunLabel& label, WordBuffer& out) const {
       16 + count(layout_.nodes) + count(layout_.solids) + count(layout_.lines) + count(layout_.shells) + 3 * parts;
   out.text(label.title, 10 * word);
   out.integer(0);                              // 10 run time stamp: none, so that equal runs give equal files
-  out.integer(1);                              // 11 file type: d3plot
+  out.integer(options_.file_type);             // 11
   out.integer(0);                              // 12 source version
   out.text("60", word);                        // 13 release whose layout this is
   out.real(971.0);                             // 14 version: tells readers the floating-point format
@@ -97,11 +98,12 @@ void D3plotWriter::control_words(const RunLabel& label, WordBuffer& out) const {
   out.integer(layout_.shell_parts);            // 32 NUMMAT4
   out.integer(words_.shell_words());           // 33 NV2D
   out.zeros(2);                                // 34-35 NEIPH, NEIPS
-  out.integer(words_.deletion ? -(10000 + words_.layers) : words_.layers);  // 36 MAXINT and MDLOPT
+  const bool stresses = options_.shell_words == 0;
+  out.integer(!stresses ? 0 : words_.deletion ? -(10000 + words_.layers) : words_.layers);  // 36 MAXINT and MDLOPT
   out.zeros(2);                                                             // 37-38 NMSPH, NGPSPH
   out.integer(numbering);                                                   // 39 NARBS
   out.zeros(3);                                                             // 40-42 NELT, NUMMATT, NV3DT
-  for (int i = 0; i < 4; ++i) out.integer(1000);  // 43-46 IOSHL: stress, plastic strain, resultants, thickness …
+  for (int i = 0; i < 4; ++i) out.integer(stresses ? 1000 : 999);  // 43-46 IOSHL: stress, plastic strain, resultants, thickness …
   out.zeros(4);                                   // 47-50 IALEMAT, NCFDV1, NCFDV2, NADAPT
   out.integer(parts);                             // 51 NMMAT
   out.zeros(12);                                  // 52-63
@@ -189,6 +191,10 @@ void D3plotWriter::write_state(const Model& model, const State& state) {
     for (const Index n : layout_.nodes) out.vector((*array)[static_cast<std::size_t>(n)]);
   element_words(model, state, out);
   if (words_.deletion) deletion_words(model, state, out);
+  append(out);
+}
+
+void D3plotWriter::append(WordBuffer& out) {
   const auto state_bytes = static_cast<std::int64_t>(out.bytes().size());
   out.real(end_of_file);
 

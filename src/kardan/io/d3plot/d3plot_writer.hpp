@@ -20,6 +20,8 @@ struct D3plotOptions {
   /// NDIM = 5: the material type section tells readers which parts are rigid, and rigid shells have no state data. Off
   /// by default, because VTK's vtkLSDynaReader miscounts such states.
   bool material_types = false;
+  int file_type = 1;             ///< word 11: 1 d3plot, 4 interface forces
+  std::int64_t shell_words = 0;  ///< NV2D, of a file whose shells carry no stresses; 0 = stresses
 };
 
 /// Word positions follow the "LS-DYNA Database Binary Output" description (LSTC) as read by vtkLSDynaReader and
@@ -32,6 +34,10 @@ class D3plotWriter {
 
   /// Appends the state at t_n and flushes it. All nodes must be up to date.
   void write_state(const Model& model, const State& state);
+  /// Appends a state that is complete but for its end marker, and flushes it.
+  void append(WordBuffer& state);
+  const D3plotLayout& layout() const { return layout_; }
+  int word_bytes() const { return options_.word_bytes; }
 
  private:
   void write_geometry(const RunLabel& label, const Model& model);

@@ -198,7 +198,7 @@ const std::map<std::string, OutputFile>& files() {
       {"RCFORC", OutputFile::rcforc},       {"SLEOUT", OutputFile::sleout},   {"RWFORC", OutputFile::rwforc},
       {"SECFORC", OutputFile::secforc},     {"SWFORC", OutputFile::swforc},   {"NCFORC", OutputFile::ncforc},
       {"ABSTAT", OutputFile::abstat},       {"NODFOR", OutputFile::nodfor},   {"BINARY_D3PLOT", OutputFile::d3plot},
-      {"BINARY_D3THDT", OutputFile::d3thdt}};
+      {"BINARY_D3THDT", OutputFile::d3thdt},  {"BINARY_INTFOR", OutputFile::intfor}};
   return names;
 }
 
