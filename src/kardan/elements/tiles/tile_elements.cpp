@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 namespace kardan {
@@ -152,13 +153,10 @@ void TileElements::run_tile(std::size_t t, const State& state, AlignedVector<dou
   for (std::size_t k = 0; k < tile.nodes; ++k) {
     const Vec3 &x = state.nodes.x[node[k]], &v = state.nodes.v[node[k]];
     double* local = scratch.data() + stride * k;
-    local[0] = x.x, local[1] = x.y, local[2] = x.z;
-    local[4] = v.x, local[5] = v.y, local[6] = v.z;
+    std::memcpy(local, &x, sizeof x);
+    std::memcpy(local + 4, &v, sizeof v);
     if (!node_values_.empty()) local[3] = node_values_[tile.first_node + k];
-    if (turns) {
-      const Vec3& w = state.nodes.omega[node[k]];
-      local[8] = w.x, local[9] = w.y, local[10] = w.z;
-    }
+    if (turns) std::memcpy(local + 8, &state.nodes.omega[node[k]], sizeof(Vec3));
   }
   const PartKernel& part = kernels_[tile.part];
   const std::size_t first = tile.first_block * block_lanes;
@@ -168,6 +166,11 @@ void TileElements::run_tile(std::size_t t, const State& state, AlignedVector<dou
   work.elements = tile.elements;
   work.node = scratch.data();
   work.nodes = tile.nodes;
+  if (t + 1 < mesh_.tiles.size()) {
+    const Tile& next = mesh_.tiles[t + 1];
+    work.ahead = {mesh_.node.data() + next.first_node, next.nodes,
+                  {state.nodes.x.data(), state.nodes.v.data(), turns ? state.nodes.omega.data() : nullptr}};
+  }
   work.step = {state.clock.dt_previous, state.clock.time};
   work.history = history_.data() + history_begin_[t];
   if (part.can_fail) {
@@ -202,10 +205,11 @@ void TileElements::internal_forces(const Model& model, State& state,
                                    const std::function<std::string(const State&, Index)>& fault) {
   if (empty()) return;
   scratch_.resize(static_cast<std::size_t>(omp_get_max_threads()));
-  const auto count = static_cast<std::ptrdiff_t>(mesh_.tiles.size());
-#pragma omp parallel for schedule(dynamic) if (count > 1)
-  for (std::ptrdiff_t t = 0; t < count; ++t) {
-    run_tile(static_cast<std::size_t>(t), state, scratch_[static_cast<std::size_t>(omp_get_thread_num())]);
+  shares_.start(mesh_.tiles.size(), scratch_.size());
+#pragma omp parallel if (mesh_.tiles.size() > 1)
+  {
+    const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+    shares_.run(thread, [&](std::size_t t) { run_tile(t, state, scratch_[thread]); });
   }
   governing_ = {};
   governing_.kind = input_.kind;

@@ -16,6 +16,7 @@
 #include "kardan/elements/tiles/tile_work.hpp"
 #include "kardan/materials/law.hpp"
 #include "kardan/model/model.hpp"
+#include "kardan/parallel/shares.hpp"
 #include "kardan/parallel/tile.hpp"
 #include "kardan/state/state.hpp"
 
@@ -188,6 +189,7 @@ class TileElements {
   std::vector<std::int64_t> deleted_;
   std::vector<Outcome> outcome_;              ///< by tile
   std::vector<AlignedVector<double>> scratch_; ///< by thread
+  Shares shares_;                              ///< of the tiles
   std::vector<Index> place_;                  ///< by element of the model: block * lanes + lane, or none
   std::vector<Index> tile_of_block_;
   Governing governing_;

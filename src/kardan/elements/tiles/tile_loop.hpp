@@ -142,6 +142,16 @@ KARDAN_INLINE void set_alive(std::size_t lanes, const double* alive, BlockReport
   }
 }
 
+/// Asks the memory for the share of block b in the nodes ahead. Every second one: the vectors of two neighbours lie on one or two lines.
+KARDAN_INLINE void ask_for_nodes(const NodesAhead& ahead, std::size_t b, std::size_t blocks) {
+  const std::size_t end = ahead.count * (b + 1) / blocks;
+  for (std::size_t k = ahead.count * b / blocks; k < end; k += 2) {
+    for (const Vec3* vectors : ahead.vectors) {
+      if (vectors) __builtin_prefetch(vectors + ahead.node[k], 0, 2);
+    }
+  }
+}
+
 /// Runs `element_block(connectivity, lanes, history)` over the blocks of a tile and gathers what the block reports. `block` is the
 /// formulation's work space, which element_block fills; alive is set before, also 0 in the empty lanes of the last block.
 template <std::size_t NodesPerElement, class Block, class F>
@@ -149,8 +159,10 @@ KARDAN_INLINE void for_each_block(TileWork& work, std::size_t components, std::s
   std::memset(work.force, 0, work.nodes * components * sizeof(double));
   work.broken = 0;
   TileReport report;
+  const std::size_t blocks = (work.elements + block_lanes - 1) / block_lanes;
   for (std::size_t first = 0, b = 0; first < work.elements; first += block_lanes, ++b) {
     const std::size_t lanes = work.elements - first < block_lanes ? work.elements - first : block_lanes;
+    ask_for_nodes(work.ahead, b, blocks);
     set_alive(lanes, work.alive ? work.alive + first : nullptr, block);
     element_block(work.connectivity + b * NodesPerElement * block_lanes, lanes, work.history + b * history_size * block_lanes);
     if (work.element_force) {

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kardan/base/index.hpp"
 #include "kardan/base/lanes.hpp"
+#include "kardan/base/vec3.hpp"
 #include "kardan/materials/law_entry.hpp"
 
 namespace kardan {
@@ -14,6 +16,13 @@ namespace kardan {
 /// velocity.
 constexpr std::size_t node_stride(std::size_t components) { return components == 6 ? 12 : 8; }
 
+/// Nodes that the same thread will gather next.
+struct NodesAhead {
+  const NodeIndex* node = nullptr;
+  std::size_t count = 0;
+  const Vec3* vectors[3] = {};  ///< by node of the model: positions, velocities, angular velocities (null: not gathered)
+};
+
 /// Local arrays are indexed by the tile's own nodes; history, alive, energy and steps by [block] … [lane].
 struct TileWork {
   const void* properties = nullptr;             ///< of the part, of the type that the kernel knows
@@ -21,6 +30,7 @@ struct TileWork {
   std::size_t elements = 0;
   const double* node = nullptr;                 ///< [node][node_stride]
   std::size_t nodes = 0;
+  NodesAhead ahead;
   StepTime step;
   double* history = nullptr;                    ///< [block][values of an element][lane]
   double smallest_step = 0;                     ///< elements whose stable step falls below it are deleted, where elements can be
