@@ -7,7 +7,8 @@ namespace kardan {
 
 namespace {
 
-constexpr double alpha = 0.5;  ///< largest k dt^2/m_eff
+constexpr double tangential = 0.5;  ///< stiffness of sticking over k
+constexpr double alpha = 0.4, beta = 0.2;  ///< largest k dt^2/m_eff and c dt/m_eff
 
 bool slides_freely(const Friction& f) { return f.statical == 0 && f.dynamic == 0; }
 
@@ -82,7 +83,7 @@ double PenaltyLaw::apply(const SurfaceNode& node, const Segment& segment, const 
   const double k = stiffness(node, motion);
   double normal = k * std::max(p, 0.0);
   if (contact_->damping > 0 && motion.inverse_mass > 0 && p > 0) {
-    const double c = 2 * contact_->damping * std::sqrt(k / motion.inverse_mass);
+    const double c = std::min(2 * contact_->damping * std::sqrt(k / motion.inverse_mass), beta / (motion.inverse_mass * step_));
     normal = std::max(0.0, normal - c * dot(motion.velocity, touch.direction));
   }
   normal *= share;
@@ -93,7 +94,7 @@ double PenaltyLaw::apply(const SurfaceNode& node, const Segment& segment, const 
     touch.friction = {};
     return 0;
   }
-  const double dissipated = slide(law, segment, motion, k, normal, touch);
+  const double dissipated = slide(law, segment, motion, tangential * k, normal, touch);
   touch.force += touch.friction;
   return dissipated;
 }

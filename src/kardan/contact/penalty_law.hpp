@@ -9,10 +9,13 @@
 //
 // Always k <= alpha m_eff/dt^2. A point of mass m_s on the point sum w_i x_i of masses m_i moves relative to it, under a force f along n, by
 // the acceleration f/m_eff, 1/m_eff = 1/m_s + sum w_i^2/m_i, so that the spring alone has omega^2 = k/m_eff and central differences are stable for
-// omega dt < 2, alpha < 4. alpha = 1/2 leaves room for the elements (TSSFAC = 0.9: 3.24 of the 4) and makes the bound idle for the usual k0.
+// omega dt < 2, alpha < 4. In a pile of shells with contact in both directions a node takes part in about four touches, two of its own and two as a corner:
+// alpha = 0.4 leaves room for them and for the elements. It makes the bound idle for the usual k0 of shells up to some six times as long as thick.
 // dt follows the run's step only upwards and in steps of 5 %, so that k, and with it the stored energy, does not change every cycle.
 //
-// Damping c = 2 VDC sqrt(k m_eff). Friction: a spring of the same k along the surface, cut off at mu f (Coulomb), mu = FD + (FS - FD) exp(-DC |v|),
+// Damping c = 2 VDC sqrt(k m_eff), at most beta m_eff/dt: the velocity is half a step old, and central differences with it are stable for
+// c dt/m + k dt^2/(2 m) < 2; four touches with beta = 0.2 use up 1.6. Friction: a spring of k/2 along the surface, where
+// shells are stiffer by themselves, cut off at mu f (Coulomb), mu = FD + (FS - FD) exp(-DC |v|),
 // and at VC times the segment's area.
 #pragma once
 
