@@ -119,9 +119,9 @@ TEST(Sliding, OverSlightlyCurvedBordersKeepsTheEnergy) {
   const double inside = std::cos(std::numbers::pi / sides) - 0.5 * thick - 1e-4;
   const NodeIndex n = m.point({inside, 0, 0.17}, 2, {0, 10, 0.05});
   m.nodes_to_surface({n}, {drum});
-  m.model.control.termination.end_time = 0.8;  // more than a round
+  m.model.control.termination.end_time = 0.7;  // more than a round
   Diagnostics diagnostics;
-  Solver solver(m.model, {.dt = 5e-5}, diagnostics);
+  Solver solver(m.model, {.dt = 2e-5}, diagnostics);
   test::Watch watch;
   double low = 2, high = 0;
   watch.each = [&](const Model&, const State& s) {

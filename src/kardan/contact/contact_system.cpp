@@ -132,7 +132,7 @@ void ContactSystem::restart(State& state) const {
   for (ContactReport& report : state.contacts) report.tracked_energy = report.reference_energy = report.friction_energy = 0;
 }
 
-void ContactSystem::drop_deleted(const std::function<bool(ElementKind, Index)>& alive) {
+void ContactSystem::drop_deleted(const Alive& alive) {
   for (const auto& contact : penalties_) contact->drop_deleted(alive);
 }
 

@@ -1,7 +1,6 @@
 // All contacts of a model: the stage `contact` of the step.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,7 +29,7 @@ class ContactSystem {
   /// After a dynamic relaxation: energies begin at zero.
   void restart(State& state) const;
   /// Some elements have been deleted: segments of theirs drop out. `alive(kind, element of the model)` says which are left.
-  void drop_deleted(const std::function<bool(ElementKind, Index)>& alive);
+  void drop_deleted(const Alive& alive);
 
  private:
   void find_masses(const State& state);

@@ -39,7 +39,7 @@ PenaltyContact::PenaltyContact(const Model& model, State& state, Index index, Di
       meter_(union_of(surfaces_)) {
   const Contact& c = contact();
   const auto add = [&](const Surface& nodes, const Surface& segments, bool reversed) {
-    directions_.push_back(std::make_unique<Direction>(Direction{PenaltyPass(nodes, segments), reversed}));
+    directions_.push_back(std::make_unique<Direction>(Direction{PenaltyPass(model, nodes, segments), reversed}));
   };
   add(surfaces_[0], c.single ? surfaces_[0] : surfaces_[1], false);
   if (c.two_way && !c.single) add(surfaces_[1], surfaces_[0], true);
@@ -139,6 +139,17 @@ void PenaltyContact::report_nodes(ContactReport& report, const Direction& direct
   for (std::size_t k = 0; k < 4; ++k)
     if (touch.weights[k] != 0)
       report.nodal_force[reference][direction.pass.segments().place_of(segment.nodes[k])] -= touch.force * touch.weights[k];
+}
+
+void PenaltyContact::drop_deleted(const Alive& alive) {
+  const Contact& c = contact();
+  if (c.eroding) {
+    const SurfaceRules rules = surface_rules(model_, c);
+    surfaces_[0].expose(model_, c, c.tracked, rules, alive);
+    if (!c.single) surfaces_[1].expose(model_, c, c.reference, rules, alive);
+  }
+  for (const auto& d : directions_) d->pass.drop_dead(model_, alive);
+  renew_ = true;
 }
 
 void PenaltyContact::report(State& state) const {

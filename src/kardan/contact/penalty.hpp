@@ -36,12 +36,8 @@ class PenaltyContact {
   void evaluate(State& state, const std::vector<double>& inverse_mass);
   /// Report at t_n.
   void report(State& state) const;
-  /// Elements have died: `alive(kind, element)` says which are left.
-  template <class Alive>
-  void drop_deleted(Alive&& alive) {
-    for (const auto& d : directions_) drop_segments(d->pass, alive);
-    renew_ = true;
-  }
+  /// Elements have died: their segments, and nodes without segments, drop out; where the contact erodes, faces laid bare join.
+  void drop_deleted(const Alive& alive);
 
  private:
   const Contact& contact() const { return model_.contacts[contact_]; }
@@ -51,23 +47,6 @@ class PenaltyContact {
   void size_report(State& state) const;
   void report_nodes(ContactReport& report, const Direction& direction, const Touch& touch, const Segment& segment) const;
   void warn_of_penetrations(const State& state, Diagnostics& diagnostics) const;
-  template <class Alive>
-  static void drop_segments(PenaltyPass& pass, Alive&& alive) {
-    const auto& segments = pass.segments().segments();
-    pass.dead_segment.resize(segments.size(), 0);
-    for (std::size_t s = 0; s < segments.size(); ++s)
-      if (!pass.dead_segment[s] && segments[s].element != none && !alive(segments[s].kind, segments[s].element)) pass.dead_segment[s] = 1;
-    const Surface& nodes = pass.nodes();
-    pass.dead_node.resize(nodes.nodes().size(), 0);
-    for (std::size_t p = 0; p < pass.dead_node.size(); ++p) {
-      const auto own = nodes.segments_at(static_cast<Index>(p));
-      pass.dead_node[p] = !own.empty() && std::all_of(own.begin(), own.end(), [&](Index s) {
-        const Segment& segment = nodes.segments()[s];
-        return segment.element != none && !alive(segment.kind, segment.element);
-      });
-    }
-  }
-
   const Model& model_;
   Index contact_;
   std::array<Surface, 2> surfaces_;   ///< tracked, reference

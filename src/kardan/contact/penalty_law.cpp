@@ -77,11 +77,29 @@ double PenaltyLaw::slide(const Friction& law, const Segment& segment, const Touc
   return limit * (size - limit) / k;
 }
 
+double PenaltyLaw::force_of_penetration(double largest, double sum) const {
+  return sum > 0 ? model_->curves[contact_->curve].value(largest) / sum : 0.0;
+}
+
+double PenaltyLaw::curve_force(const SurfaceNode& node, const TouchMotion& motion, double p, const Touch& touch) const {
+  if (p <= 0) return 0;
+  const Curve& curve = model_->curves[contact_->curve];
+  double force = shares_total() ? scale_of_total * p : curve.value(p);
+  if (contact_->curve_method == 3) force *= node.area;
+  if (contact_->unload_stiffness > 0 && !shares_total() && p < touch.largest) {
+    const double most = curve.value(touch.largest) * (contact_->curve_method == 3 ? node.area : 1.0);
+    force = std::max(0.0, most - contact_->unload_stiffness * (touch.largest - p));
+  }
+  if (contact_->damping_curve != none)
+    force += contact_->damping_scale * model_->curves[contact_->damping_curve].value(-dot(motion.velocity, touch.direction));
+  return std::max(force, 0.0);
+}
+
 double PenaltyLaw::apply(const SurfaceNode& node, const Segment& segment, const TouchMotion& motion, double share, Touch& touch) const {
   const double p = touch.penetration - touch.offset;
   touch.largest = std::max(touch.largest, p);
   const double k = stiffness(node, motion);
-  double normal = k * std::max(p, 0.0);
+  double normal = contact_->rigid_curve ? curve_force(node, motion, p, touch) : k * std::max(p, 0.0);
   if (contact_->damping > 0 && motion.inverse_mass > 0 && p > 0) {
     const double c = std::min(2 * contact_->damping * std::sqrt(k / motion.inverse_mass), beta / (motion.inverse_mass * step_));
     normal = std::max(0.0, normal - c * dot(motion.velocity, touch.direction));

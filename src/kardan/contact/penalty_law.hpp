@@ -19,6 +19,12 @@
 // and at VC times the segment's area.
 #pragma once
 
+// Rigid contacts (*CONTACT_RIGID_…) have a curve F(p) instead, exactly as given: by FCM
+//   1   of the sum of all normal forces over the largest penetration, shared in proportion to the penetrations
+//   2   of each node's force over its penetration
+//   3   of the pressure on each node's share of area over its penetration
+// Unloading from the largest penetration q is along F(q) - US (q - p); LCDC adds DSF c(v_n), a force over the speed of approach.
+
 #include "kardan/contact/surface.hpp"
 #include "kardan/contact/touch.hpp"
 #include "kardan/model/model.hpp"
@@ -44,10 +50,17 @@ class PenaltyLaw {
   double& step() { return step_; }
 
   bool has_friction() const;
+  /// The curve gives the sum of all forces (FCM = 1): `total` and the sum of penetrations must be known before any force is.
+  bool shares_total() const { return contact_->rigid_curve && contact_->curve_method == 1; }
+  /// Force on penetration for shares_total(): F(largest)/sum. `touches` of both directions.
+  double force_of_penetration(double largest, double sum) const;
   /// Force on the node, times `share`; brings touch.friction and touch.largest up to date. @return what friction dissipates in the step
   double apply(const SurfaceNode& node, const Segment& segment, const TouchMotion& motion, double share, Touch& touch) const;
 
+  double scale_of_total = 0;  ///< what force_of_penetration() said in this cycle
+
  private:
+  double curve_force(const SurfaceNode& node, const TouchMotion& motion, double p, const Touch& touch) const;
   double stiffness(const SurfaceNode& node, const TouchMotion& motion) const;
   const Friction& friction(PartIndex tracked, PartIndex reference, Friction& mixed) const;
   double slide(const Friction& law, const Segment& segment, const TouchMotion& motion, double k, double normal, Touch& touch) const;

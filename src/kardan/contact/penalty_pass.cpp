@@ -26,7 +26,7 @@ std::vector<std::pair<Index, Index>> deep_pairs(const std::vector<Touch>& touche
 
 }  // namespace
 
-PenaltyPass::PenaltyPass(const Surface& nodes, const Surface& segments) : nodes_(&nodes), segments_(&segments) {
+PenaltyPass::PenaltyPass(const Model& model, const Surface& nodes, const Surface& segments) : nodes_(&nodes), segments_(&segments) {
   const auto count = static_cast<Index>(nodes.nodes().size());
   for (Index begin = 0; begin < count; begin += chunk_nodes) {
     Chunk chunk;
@@ -34,10 +34,30 @@ PenaltyPass::PenaltyPass(const Surface& nodes, const Surface& segments) : nodes_
     chunk.end = std::min(begin + chunk_nodes, count);
     chunks_.push_back(std::move(chunk));
   }
-  corner_stiffness_.resize(segments.segments().size());
+  drop_dead(model, [](ElementKind, Index) { return true; });
+}
+
+void PenaltyPass::take_stiffnesses() {
+  corner_stiffness_.resize(segments_->segments().size());
   for (std::size_t s = 0; s < corner_stiffness_.size(); ++s)
     for (std::size_t k = 0; k < 4; ++k)
-      corner_stiffness_[s][k] = segments.nodes()[segments.place_of(segments.segments()[s].nodes[k])].stiffness;
+      corner_stiffness_[s][k] = segments_->nodes()[segments_->place_of(segments_->segments()[s].nodes[k])].stiffness;
+}
+
+void PenaltyPass::drop_dead(const Model& model, const Alive& alive) {
+  take_stiffnesses();
+  const auto gone = [&](const Segment& s) { return s.element != none && !alive(s.kind, s.element); };
+  dead_segment_.clear();
+  for (const Segment& s : segments_->segments()) dead_segment_.push_back(gone(s));
+  dead_node_.assign(nodes_->nodes().size(), 0);
+  if (nodes_->segments().empty()) return;  // a side of nodes
+  for (std::size_t p = 0; p < dead_node_.size(); ++p) {
+    const auto own = nodes_->segments_at(static_cast<Index>(p));
+    dead_node_[p] = std::all_of(own.begin(), own.end(), [&](Index s) { return gone(nodes_->segments()[s]); });
+  }
+  for (const Index beam : nodes_->beams())
+    for (const NodeIndex n : {model.beams.nodes[beam][0], model.beams.nodes[beam][1]})
+      if (const Index place = nodes_->place_of(n); place != none && alive(ElementKind::beam, beam)) dead_node_[place] = 0;
 }
 
 void PenaltyPass::search(const State& state, double margin) {
@@ -49,13 +69,13 @@ void PenaltyPass::search(const State& state, double margin) {
   input.segments = segments_;
   input.x = &state.nodes.x;
   input.body = &state.nodes.body;
-  input.dead_node = &dead_node;
-  input.dead_segment = &dead_segment;
+  input.dead_node = &dead_node_;
+  input.dead_segment = &dead_segment_;
   input.margin = margin;
   std::erase_if(always, [&](const auto& pair) {
     const auto& corner = segments_->segments()[pair.second].nodes;
     return std::find(corner.begin(), corner.end(), nodes_->nodes()[pair.first].node) != corner.end() ||
-           (!dead_segment.empty() && dead_segment[pair.second]) || (!dead_node.empty() && dead_node[pair.first]);
+           dead_segment_[pair.second] || dead_node_[pair.first];
   });
   search_.find(input, always, candidates_);
   wake_.assign(candidates_.segment.size(), 0.0);
@@ -79,11 +99,11 @@ void PenaltyPass::add_work(const State& state, const Touch& touch, PassEnergy& e
   energy.segments += half * dot(touch.force, corner);
 }
 
-/// Forces of the touches of one node, those of chunk.touches from `first` on.
+/// Forces of the touches of one node, first <= i < end of chunk.touches.
 void PenaltyPass::push(const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass, std::size_t first,
-                       Chunk& chunk) const {
+                       std::size_t end, Chunk& chunk) const {
   const std::vector<Vec3>& v = *frame.v;
-  for (std::size_t i = first; i < chunk.touches.size(); ++i) {
+  for (std::size_t i = first; i < end; ++i) {
     Touch& t = chunk.touches[i];
     if (t.share == 0) continue;
     const SurfaceNode& node = nodes_->nodes()[t.place];
@@ -107,10 +127,10 @@ void PenaltyPass::push(const TouchFrame& frame, const PenaltyLaw& law, const std
     chunk.energy.friction += law.apply(node, s, motion, t.share, t);
   }
   if (!law.has_friction()) return;
-  for (std::size_t i = first; i < chunk.touches.size(); ++i) {  // what is only remembered sticks like its nearest neighbour
+  for (std::size_t i = first; i < end; ++i) {  // what is only remembered sticks like its nearest neighbour
     Touch& t = chunk.touches[i];
     double nearest = 0;
-    for (std::size_t j = first; t.share == 0 && j < chunk.touches.size(); ++j) {
+    for (std::size_t j = first; t.share == 0 && j < end; ++j) {
       const Touch& other = chunk.touches[j];
       if (const double cosine = dot(other.direction, t.direction); other.share > 0 && cosine > nearest) {
         nearest = cosine;
@@ -120,8 +140,7 @@ void PenaltyPass::push(const TouchFrame& frame, const PenaltyLaw& law, const std
   }
 }
 
-void PenaltyPass::evaluate_chunk(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass,
-                                 TouchFinder& finder, Chunk& chunk) {
+void PenaltyPass::find_touches(const State& state, const TouchFrame& frame, TouchFinder& finder, Chunk& chunk) {
   std::swap(chunk.touches, chunk.before);
   chunk.touches.clear();
   chunk.energy = {};
@@ -136,14 +155,30 @@ void PenaltyPass::evaluate_chunk(const State& state, const TouchFrame& frame, co
     if (memory == end && node_wake_[a] > frame.travel) continue;
     const auto begin = static_cast<std::size_t>(candidates_.first[place]);
     const std::size_t count = static_cast<std::size_t>(candidates_.first[place + 1]) - begin;
-    const std::size_t first = chunk.touches.size();
     const std::span<double> wake(wake_.data() + begin, count);
     finder.find(frame, place, {candidates_.segment.data() + begin, count}, wake, {memory, end}, chunk.touches);
     node_wake_[a] = *std::min_element(wake.begin(), wake.end());
-    if (chunk.touches.size() > first) push(frame, law, inverse_mass, first, chunk);
+  }
+}
+
+void PenaltyPass::push_all(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass,
+                           Chunk& chunk) const {
+  for (std::size_t first = 0, end = 0; first < chunk.touches.size(); first = end) {
+    while (end < chunk.touches.size() && chunk.touches[end].place == chunk.touches[first].place) ++end;
+    push(frame, law, inverse_mass, first, end, chunk);
   }
   for (const Touch& t : chunk.touches)
     if (t.share > 0) add_work(state, t, chunk.energy);
+}
+
+double PenaltyPass::force_of_penetration(const PenaltyLaw& law) const {
+  double largest = 0, sum = 0;
+  for_each([&](const Touch& t) {
+    const double p = std::max(0.0, t.penetration - t.offset);
+    largest = std::max(largest, p);
+    sum += t.share * p;
+  });
+  return law.force_of_penetration(largest, sum);
 }
 
 PassEnergy PenaltyPass::sum_energies() const {
@@ -156,12 +191,19 @@ PassEnergy PenaltyPass::sum_energies() const {
   return sum;
 }
 
-PassEnergy PenaltyPass::evaluate(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass) {
+PassEnergy PenaltyPass::evaluate(const State& state, const TouchFrame& frame, PenaltyLaw& law, const std::vector<double>& inverse_mass) {
   while (finders_.size() < static_cast<std::size_t>(omp_get_max_threads())) finders_.emplace_back(*nodes_, *segments_);
   const auto count = static_cast<std::ptrdiff_t>(chunks_.size());
+  const bool at_once = !law.shares_total();
 #pragma omp parallel for schedule(dynamic) if (count > 2)
   for (std::ptrdiff_t c = 0; c < count; ++c) {
-    evaluate_chunk(state, frame, law, inverse_mass, finders_[omp_get_thread_num()], chunks_[c]);
+    Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
+    find_touches(state, frame, finders_[static_cast<std::size_t>(omp_get_thread_num())], chunk);
+    if (at_once) push_all(state, frame, law, inverse_mass, chunk);
+  }
+  if (!at_once) {
+    law.scale_of_total = force_of_penetration(law);
+    for (Chunk& chunk : chunks_) push_all(state, frame, law, inverse_mass, chunk);
   }
   return sum_energies();
 }

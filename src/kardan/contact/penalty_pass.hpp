@@ -26,7 +26,7 @@ struct PassEnergy {
 class PenaltyPass {
  public:
   /// The surfaces must outlive the pass.
-  PenaltyPass(const Surface& nodes, const Surface& segments);
+  PenaltyPass(const Model& model, const Surface& nodes, const Surface& segments);
 
   const Surface& nodes() const { return *nodes_; }
   const Surface& segments() const { return *segments_; }
@@ -35,7 +35,7 @@ class PenaltyPass {
   void search(const State& state, double margin);
   /// Touches and forces at t_n. @param inverse_mass  1/mass by node of the model, as stiffnesses see it
   /// @return energies of the step that ends at t_n
-  PassEnergy evaluate(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass);
+  PassEnergy evaluate(const State& state, const TouchFrame& frame, PenaltyLaw& law, const std::vector<double>& inverse_mass);
   /// Energies of the step with the forces of its begin only; then no touches are left.
   PassEnergy end(const State& state);
 
@@ -48,8 +48,9 @@ class PenaltyPass {
   }
   std::size_t touching() const;
 
-  /// Set by whoever deletes elements: by segment and by place of a node; empty where none is dead.
-  std::vector<std::uint8_t> dead_segment, dead_node;
+  /// Segments of deleted elements drop out of the next search, and nodes that no segment and no beam is left at (those of a side of nodes stay).
+  /// Call it too after Surface::expose().
+  void drop_dead(const Model& model, const Alive& alive);
 
   void register_state(Registry& registry, const std::string& name);
 
@@ -62,15 +63,19 @@ class PenaltyPass {
     PassEnergy energy;
   };
 
-  void evaluate_chunk(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass,
-                      TouchFinder& finder, Chunk& chunk);
-  void push(const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass, std::size_t first, Chunk& chunk) const;
+  void take_stiffnesses();
+  void find_touches(const State& state, const TouchFrame& frame, TouchFinder& finder, Chunk& chunk);
+  void push_all(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass, Chunk& chunk) const;
+  double force_of_penetration(const PenaltyLaw& law) const;
+  void push(const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass, std::size_t first, std::size_t end,
+            Chunk& chunk) const;
   void add_work(const State& state, const Touch& touch, PassEnergy& energy) const;
   PassEnergy sum_energies() const;
 
   const Surface* nodes_;
   const Surface* segments_;
   std::vector<std::array<double, 4>> corner_stiffness_;  ///< by segment
+  std::vector<std::uint8_t> dead_segment_, dead_node_;   ///< by segment and by place of a node; empty where none is dead
   CandidateSearch search_;
   Candidates candidates_;
   std::vector<double> wake_;          ///< by candidate: travel before which it cannot be touched

@@ -118,7 +118,7 @@ void CandidateSearch::look_up(const SearchInput& in, Index segment, double reach
       if (e.x.x < box.low.x || e.x.x > box.high.x || e.x.y < box.low.y || e.x.y > box.high.y || e.x.z < box.low.z || e.x.z > box.high.z) continue;
       const NodeIndex node = in.nodes->nodes()[e.place].node;
       if (node == s.nodes[0] || node == s.nodes[1] || node == s.nodes[2] || node == s.nodes[3]) continue;
-      if ((rigid && (*in.body)[node] == body) || (!in.dead_node->empty() && (*in.dead_node)[e.place])) continue;
+      if ((rigid && (*in.body)[node] == body) || (*in.dead_node)[e.place]) continue;
       pairs.push_back({e.place, segment});
     }
   });
@@ -164,7 +164,7 @@ void CandidateSearch::find(const SearchInput& in, const std::vector<std::pair<In
     pairs.clear();
     const std::size_t begin = static_cast<std::size_t>(c) * chunk_segments, end = std::min(begin + chunk_segments, segments);
     for (std::size_t s = begin; s < end; ++s)
-      if (in.dead_segment->empty() || !(*in.dead_segment)[s]) look_up(in, static_cast<Index>(s), reach, pairs);
+      if (!(*in.dead_segment)[s]) look_up(in, static_cast<Index>(s), reach, pairs);
   }
   group(in.nodes->nodes().size(), always, found);
 }

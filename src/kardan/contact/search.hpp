@@ -23,7 +23,7 @@ struct Candidates {
   std::vector<Index> segment;  ///< ascending for each node
 };
 
-/// What is searched. Spans of other owners; `dead` lists may be empty.
+/// What is searched; all of it belongs to others.
 struct SearchInput {
   const Surface* nodes = nullptr;
   const Surface* segments = nullptr;

@@ -78,6 +78,7 @@ SurfaceRules surface_rules(const Model& model, const Contact& contact) {
   rules.limited_thickness = contact.single && !model.control.contact.full_thickness;
   rules.solid_thickness = contact.solid_thickness;
   rules.solid_modulus = contact.solid_stiffness;
+  rules.eroding = contact.eroding;
   return rules;
 }
 
@@ -91,9 +92,9 @@ bool adjacent(const Segment& a, const Segment& b) {
 /// Gathers the segments and nodes of one side.
 class SurfaceBuilder {
  public:
-  SurfaceBuilder(const Model& model, const State& state, const Contact& contact, const ContactSide& side, const SurfaceRules& rules,
+  SurfaceBuilder(const Model& model, const std::vector<Vec3>& x, const Contact& contact, const ContactSide& side, const SurfaceRules& rules,
                  Surface& surface)
-      : model_(model), x_(state.nodes.x), contact_(contact), side_(side), rules_(rules), surface_(surface) {}
+      : model_(model), x_(x), contact_(contact), side_(side), rules_(rules), surface_(surface) {}
 
   void build(Diagnostics& diagnostics) {
     using Kind = ContactSide::Kind;
@@ -110,7 +111,31 @@ class SurfaceBuilder {
                           "check the set or part it names, and its box", contact_.keyword);
   }
 
+  void expose(const Alive& alive) {
+    using Kind = ContactSide::Kind;
+    if (side_.kind != Kind::parts && side_.kind != Kind::everything) return;
+    const std::size_t before = surface_.segments_.size();
+    std::vector<FaceKey> known;
+    for (const Segment& s : surface_.segments_)
+      if (s.kind == ElementKind::solid) known.push_back(key_of(s.nodes));
+    std::sort(known.begin(), known.end());
+    for (const Face& f : free_faces(wanted_parts(), alive))
+      if (!std::binary_search(known.begin(), known.end(), f.key)) add_face(f);
+    if (surface_.segments_.size() == before) return;
+    for (SurfaceNode& n : surface_.nodes_) n.area = 0;
+    for (Segment& s : surface_.segments_) s.body = none;
+    list_segments_of_nodes();
+    number_bodies();
+    for (std::size_t s = before; s < surface_.segments_.size(); ++s)
+      for (const NodeIndex n : surface_.segments_[s].nodes) take_means(surface_.place_of(n));
+  }
+
  private:
+  struct Face {
+    FaceKey key;
+    Index solid;
+    std::uint8_t face;
+  };
   /// A node that beams, or elements of a side of nodes, add.
   struct LooseNode {
     NodeIndex node;
@@ -181,45 +206,62 @@ class SurfaceBuilder {
     return s;
   }
 
-  void add_parts() {
+  std::vector<std::uint8_t> wanted_parts() const {
     std::vector<std::uint8_t> wanted(model_.parts.size(), side_.kind == ContactSide::Kind::everything);
     for (const PartIndex p : side_.parts) wanted[p] = 1;
+    return wanted;
+  }
+
+  void add_parts() {
+    const std::vector<std::uint8_t> wanted = wanted_parts();
     for (std::size_t e = 0; e < model_.shells.size(); ++e)
       if (wanted[model_.shells.part[e]] && in_box(model_.shells.nodes[e]))
         surface_.segments_.push_back(of_shell(static_cast<Index>(e), model_.shells.nodes[e]));
-    add_free_faces(wanted);
+    for (const Face& f : free_faces(wanted, [](ElementKind, Index) { return true; })) add_face(f);
     for (std::size_t e = 0; e < model_.beams.size(); ++e)
       if (wanted[model_.beams.part[e]]) add_beam(static_cast<Index>(e));
+    if (!rules_.eroding) return;
+    for (std::size_t e = 0; e < model_.solids.size(); ++e)
+      if (wanted[model_.solids.part[e]])
+        for (const NodeIndex n : model_.solids.nodes[e]) loose_.push_back({n, model_.solids.part[e], 0, 0});
   }
 
-  /// Faces that occur once among all solids of the side's parts.
-  void add_free_faces(const std::vector<std::uint8_t>& wanted) {
-    struct Face {
-      FaceKey key;
-      Index solid;
-      std::uint8_t face;
-    };
+  void add_face(const Face& f) {
+    if (const auto nodes = face_of(model_.solids.nodes[f.solid], f.face); in_box(nodes)) surface_.segments_.push_back(of_solid(f.solid, nodes));
+  }
+
+  /// Faces that occur once among all solids of the parts that are left, by solid and face.
+  std::vector<Face> free_faces(const std::vector<std::uint8_t>& wanted, const Alive& alive) const {
     std::vector<Face> faces;
     for (std::size_t e = 0; e < model_.solids.size(); ++e) {
-      if (!wanted[model_.solids.part[e]]) continue;
+      const auto solid = static_cast<Index>(e);
+      if (!wanted[model_.solids.part[e]] || !alive(ElementKind::solid, solid)) continue;
       for (std::size_t f = 0; f < 6; ++f)
         if (const auto nodes = face_of(model_.solids.nodes[e], f); nodes[0] != none)
-          faces.push_back({key_of(nodes), static_cast<Index>(e), static_cast<std::uint8_t>(f)});
+          faces.push_back({key_of(nodes), solid, static_cast<std::uint8_t>(f)});
     }
-    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+    const auto by_key = [](const Face& a, const Face& b) {
       return a.key != b.key ? a.key < b.key : std::pair(a.solid, a.face) < std::pair(b.solid, b.face);
-    });
+    };
+    std::sort(faces.begin(), faces.end(), by_key);
     std::vector<Face> free;
     for (auto i = faces.begin(); i != faces.end();) {
       const auto next = std::find_if(i, faces.end(), [&](const Face& f) { return f.key != i->key; });
       if (next - i == 1) free.push_back(*i);
       i = next;
     }
-    std::sort(free.begin(), free.end(),
-              [](const Face& a, const Face& b) { return std::pair(a.solid, a.face) < std::pair(b.solid, b.face); });
-    for (const Face& f : free)
-      if (const auto nodes = face_of(model_.solids.nodes[f.solid], f.face); in_box(nodes))
-        surface_.segments_.push_back(of_solid(f.solid, nodes));
+    std::sort(free.begin(), free.end(), [](const Face& a, const Face& b) { return std::pair(a.solid, a.face) < std::pair(b.solid, b.face); });
+    return free;
+  }
+
+  /// Thickness and stiffness of a node from its segments.
+  void take_means(Index place) {
+    SurfaceNode& n = surface_.nodes_[place];
+    n.stiffness = 0;
+    for (const Index s : surface_.segments_at(place)) {
+      n.half_thickness = std::max(n.half_thickness, surface_.segments_[s].half_thickness);
+      n.stiffness += surface_.segments_[s].stiffness / static_cast<double>(surface_.segments_at(place).size());
+    }
   }
 
   void add_beam(Index beam) {
@@ -375,7 +417,11 @@ class SurfaceBuilder {
 
 Surface::Surface(const Model& model, const State& state, const Contact& contact, const ContactSide& side, const SurfaceRules& rules,
                  Diagnostics& diagnostics) {
-  SurfaceBuilder(model, state, contact, side, rules, *this).build(diagnostics);
+  SurfaceBuilder(model, state.nodes.x, contact, side, rules, *this).build(diagnostics);
+}
+
+void Surface::expose(const Model& model, const Contact& contact, const ContactSide& side, const SurfaceRules& rules, const Alive& alive) {
+  SurfaceBuilder(model, model.nodes.x, contact, side, rules, *this).expose(alive);
 }
 
 Index Surface::place_of(NodeIndex node) const {

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -49,7 +50,11 @@ struct SurfaceRules {
   bool limited_thickness = false;  ///< at most 0.4 of a segment's shortest side (single surfaces)
   double solid_thickness = 0;      ///< SLDTHK
   double solid_modulus = 0;        ///< SLDSTF: E of solids' faces in place of the material's
+  bool eroding = false;            ///< nodes inside solids are listed, too: faces that deletion lays bare will have them
 };
+/// Says which elements have not been deleted.
+using Alive = std::function<bool(ElementKind, Index)>;
+
 /// Rules of a penalty contact. Ties take SurfaceRules{.automatic = true} and look at the thicknesses themselves.
 SurfaceRules surface_rules(const Model& model, const Contact& contact);
 
@@ -60,6 +65,9 @@ class Surface {
   /// Warns, in the name of `contact`, of segments that lie on no element (they are left out) and of a side that is empty.
   Surface(const Model& model, const State& state, const Contact& contact, const ContactSide& side, const SurfaceRules& rules,
           Diagnostics& diagnostics);
+
+  /// Elements have been deleted: faces of solids that are left and stand free now are added behind the segments there are. Sizes are those of t = 0.
+  void expose(const Model& model, const Contact& contact, const ContactSide& side, const SurfaceRules& rules, const Alive& alive);
 
   const std::vector<Segment>& segments() const { return segments_; }
   const std::vector<SurfaceNode>& nodes() const { return nodes_; }  ///< ascending

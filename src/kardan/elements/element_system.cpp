@@ -101,6 +101,19 @@ void ElementSystem::erode_below(double step) {
   impl_->for_each_tiles([step](TileElements& elements) { elements.erode_below(step); });
 }
 
+std::int64_t ElementSystem::deleted() const {
+  return impl_->shells.deleted() + impl_->solids.deleted() + impl_->beams.elements().deleted();
+}
+
+bool ElementSystem::alive(ElementKind kind, Index element) const {
+  const auto in = [element](const std::vector<TileElements*>& all) {
+    return std::all_of(all.begin(), all.end(), [element](const TileElements* e) { return e->alive(element) > 0; });
+  };
+  if (kind == ElementKind::shell) return in(impl_->shells.elements());
+  if (kind == ElementKind::solid) return in(impl_->solids.elements());
+  return kind != ElementKind::beam || impl_->beams.elements().alive(element) > 0;
+}
+
 void ElementSystem::add_forces(State& state, NodeIndex begin, NodeIndex end) const {
   impl_->shells.add_forces(state, begin, end);
   impl_->solids.add_forces(state, begin, end);

@@ -1,6 +1,7 @@
 // Finite elements and discrete elements: the stage `elements` of the step.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -34,6 +35,10 @@ class ElementSystem {
   const std::vector<NodeIndex>& scale_masses(const Model& model, State& state);
   /// From now on solids whose stable step (without TSSFAC) is below `step` are deleted where *CONTROL_TIMESTEP ERODE asks for it.
   void erode_below(double step);
+
+  /// Shells, solids and beams deleted so far, and whether an element of the model is left.
+  std::int64_t deleted() const;
+  bool alive(ElementKind kind, Index element) const;
 
   /// Adds the forces of the tiles on the nodes begin <= n < end to state.nodes.force and .moment. Several threads may do so for
   /// nodes of their own.

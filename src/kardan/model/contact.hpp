@@ -110,7 +110,7 @@ struct Contact {
   double step_of_stiffness = 0;      ///< DTSTIF: dt in stiffnesses of SOFT 1 and 2; 0 = the run's
 
   CurveIndex curve = none;           ///< LCID of rigid contacts: force against penetration
-  int curve_method = 1;              ///< FCM: 1 sum over nodes, 2 per node …
+  int curve_method = 1;              ///< FCM: 1 sum of all forces, 2 force of a node, 3 pressure
   double unload_stiffness = 0;       ///< US
   CurveIndex damping_curve = none;   ///< LCDC
   double damping_scale = 1;          ///< DSF

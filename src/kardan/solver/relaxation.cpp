@@ -135,7 +135,7 @@ void Solver::relax() {
     loads_->apply(model_, state_);
     elements_->internal_forces(model_, state_);
     choose_time_step(*relaxation_rule_);
-    contacts_->apply(state_);
+    contact();
     scale_velocities(state_, control.factor);
     kick();
     watch.add(motion_energy(state_));

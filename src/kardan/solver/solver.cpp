@@ -134,7 +134,7 @@ bool Solver::step() {
     stop_ = reason_to_stop();
     find_due_observers();
     timers_.lap(Phase::time_step);
-    contacts_->apply(state_);
+    contact();
     timers_.lap(Phase::contact);
     kick();
     if (looked_at_) nodes_->settle(state_);
@@ -157,6 +157,15 @@ bool Solver::step() {
   clock_hand_.advance(state_.clock, end_time_);
   timers_.lap(Phase::nodes);
   return true;
+}
+
+void Solver::contact() {
+  if (contacts_->empty()) return;
+  if (const std::int64_t deleted = elements_->deleted(); deleted != deleted_) {
+    deleted_ = deleted;
+    contacts_->drop_deleted([this](ElementKind kind, Index element) { return elements_->alive(kind, element); });
+  }
+  contacts_->apply(state_);
 }
 
 void Solver::kick() {

@@ -80,6 +80,7 @@ class Solver {
   void register_state();
   void clear_forces();
   void choose_time_step(const TimeStepRule& rule);
+  void contact();
   void kick();
   void relax();
   void account();
@@ -100,6 +101,7 @@ class Solver {
   StepBound step_;
   double first_dt_ = 0, end_time_ = 0;
   std::int64_t elements_processed_ = 0;
+  std::int64_t deleted_ = 0;  // elements that contacts know to be deleted
   std::vector<NodeIndex> summed_nodes_;  // nodes that receive forces: all but the idle nodes of bodies
   std::vector<NodeIndex> summed_not_kicked_;  // those among them that belong to bodies or have no mass
   StopReason stop_ = StopReason::running;

@@ -275,8 +275,8 @@ void read_rigid_law(Builder& b, const Cards& cards, Contact& contact) {
   contact.rigid_curve = true;
   contact.curve = b.reference(card, "lcid", b.curves);
   contact.curve_method = static_cast<int>(card.integer("fcm"));
-  if (contact.curve_method < 1 || contact.curve_method > 2)
-    b.unsupported(card, "fcm", "a force of this kind (FCM = " + card.text("fcm") + ") is not available", "give 1 (force of a node) or 2 (shared by the area)");
+  if (contact.curve_method < 1 || contact.curve_method > 3)
+    b.unsupported(card, "fcm", "a force of this kind (FCM = " + card.text("fcm") + ") is not available", "give 1 (sum of all forces), 2 (force of a node) or 3 (pressure)");
   contact.unload_stiffness = card.real("us", dimension::stiffness);
   contact.damping_curve = b.optional_curve(card, "lcdc");
   contact.damping_scale = Builder::real_or(card, "dsf", 1.0);
@@ -323,7 +323,7 @@ void build_contact(Builder& b, Block& block) {
   if (contact.initial_penetration == 0) contact.initial_penetration = ignore;
   if (meaning.law == Law::tied || meaning.law == Law::tiebreak) read_tie(b, cards, meaning, contact);
   if (meaning.third == ThirdCard::rigid) read_rigid_law(b, cards, contact);
-  const bool computed = (meaning.law == Law::penalty && !contact.edges && !contact.eroding && !contact.rigid_curve) || meaning.law == Law::transducer;
+  const bool computed = (meaning.law == Law::penalty && !contact.edges) || meaning.law == Law::transducer;
   if (!computed) b.unsupported(block, "this contact is read but not computed by this version", "--without contact leaves it out at your own risk");
   b.model.contacts.push_back(std::move(contact));
 }
