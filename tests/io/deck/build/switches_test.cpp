@@ -25,6 +25,15 @@ TEST(BuildSwitch, DeformableToRigidIsAMergeOfRigidParts) {
   EXPECT_NE(wrong.error("field PTYPE"), nullptr);
 }
 
+TEST(BuildSwitch, PartsThatSharePlanesOfNodesAreOneRigidBody) {
+  const Built b(two_blocks + soft + "*DEFORMABLE_TO_RIGID\n9\n");  // part 9 lies on the nodes of the rigid block 1
+  ASSERT_TRUE(b.diagnostics.ok()) << b.messages();
+  ASSERT_EQ(b.model.merges.size(), 1u);
+  EXPECT_EQ(b.model.merges[0].lead, 0);
+  EXPECT_EQ(b.model.merges[0].constrained, 2);
+  EXPECT_NE(b.warning("shares 8 nodes with rigid part 1"), nullptr);
+}
+
 TEST(BuildSwitch, AutomaticMakesGroupsForATime) {
   const Built b(two_blocks + soft + "*DEFORMABLE_TO_RIGID_AUTOMATIC\n1,0,.2\n,,,,2\n9\n10,9\n2,0,.5\n,,,,,1\n3,PSET\n");
   EXPECT_TRUE(b.diagnostics.ok()) << b.messages();

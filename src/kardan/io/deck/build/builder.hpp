@@ -142,6 +142,7 @@ class Builder {
     double time;
     bool to_rigid;
   };
+  std::vector<std::pair<Card, PartIndex>> switched_from_start;         ///< of *DEFORMABLE_TO_RIGID, without a lead part
   std::vector<PartSwitch> part_switches;                               ///< of *DEFORMABLE_TO_RIGID_AUTOMATIC
   bool relaxation_curves = false;                                      ///< some curve has SIDR = 1 or 2
   struct ContactDefaults {

@@ -1,5 +1,6 @@
 // *DEFORMABLE_TO_RIGID, _AUTOMATIC.
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <string>
 #include <variant>
@@ -62,6 +63,7 @@ void build_deformable_to_rigid(Builder& b, Block& block) {
     for (const PartIndex p : parts) {
       make_rigid(b, card, p);
       if (lead != none && lead != p) b.model.merges.push_back({lead, p, 0});
+      if (lead == none) b.switched_from_start.emplace_back(card, p);
     }
   });
 }
@@ -128,9 +130,52 @@ bool valid(Builder& b, const Builder::PartSwitch& s) {
   return false;
 }
 
+/// Three of the nodes span a plane: two rigid bodies that share them are one.
+bool span_a_plane(const Nodes& nodes, const std::vector<NodeIndex>& shared) {
+  if (shared.size() < 3) return false;
+  const Vec3& origin = nodes.x[at(shared[0])];
+  Vec3 longest{};
+  for (const NodeIndex n : shared)
+    if (const Vec3 arm = nodes.x[at(n)] - origin; norm(arm) > norm(longest)) longest = arm;
+  return std::any_of(shared.begin(), shared.end(), [&](NodeIndex n) {
+    const Vec3 arm = nodes.x[at(n)] - origin;
+    return norm(cross(arm, longest)) > 1e-6 * dot(longest, longest);
+  });
+}
+
+/// Deformable parts share nodes with others; where *DEFORMABLE_TO_RIGID makes both rigid, they are one body.
+void join_neighbours(Builder& b) {
+  const auto nodes_of = [&](PartIndex p) {
+    std::vector<NodeIndex> nodes = b.sets->nodes_of_parts({p});
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+  };
+  for (const auto& [card, part] : b.switched_from_start) {
+    const std::vector<NodeIndex> own = nodes_of(part);
+    for (std::size_t i = 0; i < b.model.parts.size(); ++i) {
+      const auto other = static_cast<PartIndex>(i);
+      const bool met_already = std::any_of(b.switched_from_start.begin(), b.switched_from_start.end(),
+                                           [&](const auto& s) { return s.second == other && other < part; });
+      const bool merged = std::any_of(b.model.merges.begin(), b.model.merges.end(), [&](const RigidBodyMerge& m) {
+        return (m.lead == part && m.constrained == other) || (m.lead == other && m.constrained == part);
+      });
+      if (other == part || met_already || merged || !b.model.rigid_part(other)) continue;
+      const std::vector<NodeIndex> theirs = nodes_of(other);
+      std::vector<NodeIndex> shared;
+      std::set_intersection(own.begin(), own.end(), theirs.begin(), theirs.end(), std::back_inserter(shared));
+      if (!span_a_plane(b.model.nodes, shared)) continue;
+      card.warning("pid", "part " + std::to_string(b.model.parts[at(part)].id) + " shares " + std::to_string(shared.size()) + " nodes with rigid part " +
+                              std::to_string(b.model.parts[i].id) + ": the two are one rigid body",
+                   "name the lead part in LRB to say so");
+      b.model.merges.push_back({other, part, 0});
+    }
+  }
+}
+
 }  // namespace
 
 void finish_switches(Builder& b) {
+  join_neighbours(b);
   std::map<PartIndex, std::vector<PartIndex>> bodies;  // by lead part
   for (const Builder::PartSwitch& s : b.part_switches) {
     if (valid(b, s) && s.to_rigid) bodies[s.lead == none ? s.part : s.lead].push_back(s.part);
