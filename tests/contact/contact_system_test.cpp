@@ -21,8 +21,8 @@ test::Meshes two_plates(int n, double gap) {
 }
 
 TEST(Contacts, AreTheSameToTheLastBitForAnyNumberOfThreads) {
-  test::Meshes m = two_plates(34, 1e-5);
-  m.throw_from(35 * 35, 2 * 35 * 35, {0.4, 0.2, -3});
+  test::Meshes m = two_plates(20, 1e-5);
+  m.throw_from(21 * 21, 2 * 21 * 21, {0.4, 0.2, -3});
   Contact& contact = m.single_surface({0, 1});
   contact.friction = {0.2, 0.2, 0, 0};
   m.model.control.termination.end_cycle = 60;
@@ -34,7 +34,7 @@ TEST(Contacts, AreTheSameToTheLastBitForAnyNumberOfThreads) {
     test::Watch watch;
     solver.attach(watch);
     solver.run();
-    EXPECT_GT(watch.most_touches, 2000);  // enough for the parallel sum
+    EXPECT_GT(watch.most_touches, 500);  // enough for the parallel sum
     hashes.push_back(solver.state().registry.hash());
   }
   EXPECT_EQ(hashes[0], hashes[1]);

@@ -11,7 +11,7 @@ namespace kardan {
 namespace {
 
 /// Fewer touches than this are added up by one thread.
-constexpr std::size_t parallel_touches = 2000;
+constexpr std::size_t parallel_touches = 500;
 
 /// Upper bound of 1/m of a point of a body at arm r (principal axes) over all directions: 1/M + sum over the axes j of (|r|^2 - r_j^2)/I_j, the trace
 /// of the tensor that turns a force at the point into the acceleration of the point.
@@ -113,7 +113,7 @@ void ContactSystem::add_forces(State& state) const {
   };
   std::size_t touches = 0;
   for (const auto& contact : penalties_)
-    for (const auto& d : contact->directions()) touches += d->pass.touching();
+    for (const auto& d : contact->directions()) touches += d->pass.touches();
   const auto nodes = static_cast<std::int64_t>(force.size());
   if (touches < parallel_touches || omp_get_max_threads() == 1) return add(0, static_cast<NodeIndex>(nodes));
 #pragma omp parallel

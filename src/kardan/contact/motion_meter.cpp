@@ -9,7 +9,7 @@ namespace {
 
 /// Nodes of rigid bodies move on arcs: within a step (at most half a radian) by a little more than v dt.
 constexpr double arc = 1.1;
-constexpr std::ptrdiff_t parallel_nodes = 20'000;
+constexpr std::ptrdiff_t parallel_nodes = 4'000;
 
 }  // namespace
 

@@ -126,6 +126,7 @@ void PenaltyContact::size_report(State& state) const {
       report.nodes[side].push_back(n.node);
       report.nodal_area[side].push_back(n.area);
     }
+    for (const Segment& s : surfaces_[side].segments()) report.segments[side].push_back(s.nodes);
     report.nodal_force[side].assign(report.nodes[side].size(), Vec3{});
     for (const Segment& s : surfaces_[side].segments()) report.segments[side].push_back(s.nodes);
   }

@@ -218,9 +218,9 @@ PassEnergy PenaltyPass::end(const State& state) {
   return sum_energies();
 }
 
-std::size_t PenaltyPass::touching() const {
+std::size_t PenaltyPass::touches() const {
   std::size_t count = 0;
-  for_each([&](const Touch&) { ++count; });
+  for (const Chunk& chunk : chunks_) count += chunk.touches.size();
   return count;
 }
 

@@ -46,7 +46,8 @@ class PenaltyPass {
       for (const Touch& t : chunk.touches)
         if (t.share > 0) f(t);
   }
-  std::size_t touching() const;
+  /// Those without a share included.
+  std::size_t touches() const;
 
   /// Segments of deleted elements drop out of the next search, and nodes that no segment and no beam is left at (those of a side of nodes stay).
   /// Call it too after Surface::expose().
