@@ -1,6 +1,7 @@
 # kardan_floor(NAME dependencies...): the static library of one folder of src/kardan, made of every .cpp in it.
 # Files named *.isa.cpp are compiled once for each instruction set, in a namespace of its own (src/kardan/base/simd.hpp), and chosen
-# between at start. The dependencies are the folders it may include (docs/architecture.md; the test house.includes checks the includes themselves).
+# between at start. They set and copy arrays of packs by loops of packs: GCC's choice, "rep stos", costs a kernel more than what it is for.
+# The dependencies are the folders it may include (docs/architecture.md; the test house.includes checks the includes themselves).
 function(kardan_floor name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/kardan/${name}/*.cpp)
   set(isa_sources ${sources})
@@ -23,7 +24,7 @@ function(kardan_floor name)
       target_link_libraries(kardan_${name}_v${level} PRIVATE kardan_options)
       target_compile_definitions(kardan_${name}_v${level} PRIVATE KARDAN_ISA_NAMESPACE=isa_v${level})
       if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-        target_compile_options(kardan_${name}_v${level} PRIVATE -march=x86-64-v${level} -O3 -Wno-psabi)
+        target_compile_options(kardan_${name}_v${level} PRIVATE -march=x86-64-v${level} -O3 -mstringop-strategy=vector_loop -Wno-psabi)
       endif()
       target_sources(kardan_${name} PRIVATE $<TARGET_OBJECTS:kardan_${name}_v${level}>)
     endforeach()
