@@ -3,7 +3,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "elements/bench.hpp"
+#include "elements/beam_bench.hpp"
 #include "kardan/elements/geometry.hpp"
 
 namespace kardan {
@@ -114,6 +114,35 @@ TEST(LumpedMass, SaysWhichPartCannotBeComputed) {
   EXPECT_NE(to_string(b.diagnostics.all()[0]).find("shell 1001"), std::string::npos);
   EXPECT_NE(to_string(b.diagnostics.all()[1]).find("*MAT_FABRIC"), std::string::npos);
   EXPECT_NE(to_string(b.diagnostics.all()[1]).find("part 100"), std::string::npos);
+}
+
+/// DT2MS = -2 times the step: four times the mass and the rotary inertia, on the nodes of shells and of beams, and twice the step.
+TEST(MassScaling, ShellsAndBeamsGetMassAndInertia) {
+  for (const bool beams : {false, true}) {
+    const auto build = [beams](test::BeamBench& b) {
+      if (beams)
+        b.line(b.beam_part(test::rectangle(0.02, 0.03), 7800, 210e9, 0.3), {0, 0, 0}, {0.3, 0, 0}, 3, {0, 1, 0});
+      else
+        test::mesh(b, b.shell_part(0.01, 7800, 210e9, 0.3), 3, 2, 0.3, 0.2, [](const Vec3& x) { return x; });
+    };
+    test::BeamBench plain, scaled;
+    build(plain);
+    plain.start();
+    plain.forces();
+    const double step = plain.elements->stable_time_step();
+    build(scaled);
+    scaled.model.control.time_step.dt2ms = -2 * step;
+    scaled.start();
+    ASSERT_TRUE(scaled.diagnostics.ok());
+    scaled.forces();
+    scaled.elements->scale_masses(scaled.model, scaled.state);
+    for (std::size_t n = 0; n < plain.state.nodes.mass.size(); ++n) {
+      EXPECT_NEAR(scaled.state.nodes.mass[n], 4 * plain.state.nodes.mass[n], 1e-9 * plain.state.nodes.mass[n]) << beams << n;
+      EXPECT_NEAR(scaled.state.nodes.inertia[n], 4 * plain.state.nodes.inertia[n], 1e-9 * plain.state.nodes.inertia[n]) << beams << n;
+    }
+    scaled.forces();
+    EXPECT_NEAR(scaled.elements->stable_time_step(), 2 * step, 1e-9 * step) << beams;
+  }
 }
 
 }  // namespace

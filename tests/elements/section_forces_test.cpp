@@ -1,6 +1,6 @@
 #include "kardan/elements/section_forces.hpp"
 
-#include "elements/bench.hpp"
+#include "elements/beam_bench.hpp"
 
 namespace kardan {
 namespace {
@@ -37,6 +37,34 @@ TEST(SectionForces, StripInTensionPullsTowardsTheHead) {
   const SectionReport& turned = b.state.sections.at(1);
   EXPECT_NEAR(turned.force.y, -s.force.x, 1e-9 * s.force.x);
   EXPECT_NEAR(turned.force.x, 0, 1e-9 * s.force.x);
+}
+
+/// A cantilever of beams: at the cut the section carries what the end is loaded with, and its moment about the section's middle.
+TEST(SectionForces, CutThroughBeamsCarriesTheEndsForceAndItsMoment) {
+  test::BeamBench b;
+  const PartIndex p = b.beam_part(test::rectangle(0.02, 0.02), 7800, 210e9, 0.3);
+  const std::vector<NodeIndex> nodes = b.line(p, {0, 0, 0}, {0.4, 0, 0}, 4, {0, 1, 0});
+  CrossSection section;
+  section.nodes = {nodes[2]};
+  section.elements[static_cast<std::size_t>(ElementKind::beam)] = {1};  // on the clamped side of the cut
+  b.model.cross_sections = {section};
+  b.start();
+  ASSERT_TRUE(b.diagnostics.ok());
+  const Vec3 load{50, 20, -10};
+  b.forces();
+  const double dt = 0.8 * b.elements->stable_time_step();
+  for (int i = 0; i < 60000; ++i) {
+    b.step(dt, [&] { b.state.nodes.force[static_cast<std::size_t>(nodes[4])] += load * std::min(1.0, i / 6000.0); },
+           [&] {
+             b.slow_down(0.999);
+             b.clamp(nodes[0]);
+           });
+  }
+  const SectionReport& s = b.state.sections.at(0);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(s.force[c], load[c], 0.01 * norm(load));
+  const Vec3 arm = b.state.nodes.x[static_cast<std::size_t>(nodes[4])] - b.state.nodes.x[static_cast<std::size_t>(nodes[2])];
+  const Vec3 moment = cross(arm, load);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(s.moment[c], moment[c], 0.01 * norm(moment));
 }
 
 }  // namespace

@@ -62,5 +62,18 @@ TEST(SolidStability, AWarpedFlatElementIsStableAtTheStableStep) {
   }
 }
 
+TEST(SolidStability, WarnsOfAViscousHourglassControlThatTheStepDoesNotCarry) {
+  for (const double coefficient : {0.1, 0.2}) {
+    Bench b;
+    b.model.control.hourglass_qm = coefficient;
+    mesh(b, b.solid_part(density, e_modulus, 0.3), 1, 1, 1, identity);
+    b.start();
+    EXPECT_EQ(b.diagnostics.all().size(), coefficient > 0.15 ? 1u : 0u);
+    if (coefficient > 0.15) {
+      EXPECT_NE(b.diagnostics.all().at(0).message.find("QM = 0.2"), std::string::npos);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kardan

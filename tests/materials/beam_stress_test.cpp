@@ -9,6 +9,8 @@
 
 #include "kardan/base/simd_math.hpp"
 #include "kardan/materials/laws/plastic_kinematic.hpp"
+#include "kardan/materials/laws/power_plastic.hpp"
+#include "materials/law_paths.hpp"
 
 namespace kardan {
 namespace {
@@ -134,6 +136,39 @@ TEST(BeamStress, CombinedPathConvergesToTheEquationsAndStaysOnTheYieldSurface) {
   const double coarse = error(500), fine = error(4000);
   EXPECT_LT(fine, 1e-3);
   EXPECT_NEAR(coarse / fine, 8, 1.5);  // backward Euler: of first order
+}
+
+/// Law 98 in steady viscoplastic flow (VP = 1), in tension and in shear: sigma = sqrt(3) tau = (A + B p^n)(1 + C log(dp/dt/EPS0)), and the
+/// elastic part of the strain is sigma/E or tau/G.
+TEST(BeamStress, RateDependentMetalFollowsItsCurve) {
+  FieldMaterial m;
+  m.number = 98;
+  m.keyword = "*MAT_SIMPLIFIED_JOHNSON_COOK";
+  m.density = 1, m.youngs_modulus = e_modulus, m.poissons_ratio = nu;
+  m.values = {{"a", 0.3}, {"b", 0.4}, {"n", 0.26}, {"c", 0.05}, {"epso", 0.2}, {"vp", 1}, {"psfail", 1e17}, {"sigmax", 1e28}, {"sigsat", 1e28}};
+  const Model model;
+  std::vector<std::shared_ptr<std::vector<double>>> kept;
+  const BeamStressOf<PowerPlastic> law{law_paths::made<PowerPlastic>(m, model, kept)};
+  for (const bool sheared : {false, true}) {
+    alignas(64) double values[PowerPlastic::history * block_lanes] = {};
+    BeamStress<Pack> stress;
+    double plastic = 0;
+    for (int i = 0; i < 50; ++i) {
+      BeamPoint<Pack> p;
+      p.stress = stress;
+      (sheared ? p.strain.rs : p.strain.rr) = Pack(1e-3);
+      law.update(p, StepTime{1e-3, 0}, values);
+      stress = p.stress;
+      const double now = values[PowerPlastic::plastic_strain * block_lanes], rate = (now - plastic) / 1e-3;
+      plastic = now;
+      if (i < 5) continue;
+      const double yield = (0.3 + 0.4 * std::pow(now, 0.26)) * (1 + 0.05 * std::log(rate / 0.2));
+      const double effective = sheared ? std::sqrt(3.0) * stress.rs.v[0] : stress.rr.v[0];
+      ASSERT_NEAR(effective, yield, 1e-9);
+      const double total = 1e-3 * (i + 1);
+      ASSERT_NEAR(now, sheared ? (total - stress.rs.v[0] / shear) / std::sqrt(3.0) : total - effective / e_modulus, 1e-9);
+    }
+  }
 }
 
 TEST(BeamStress, ALaneGetsWhatItWouldGetAlone) {

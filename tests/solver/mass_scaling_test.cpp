@@ -127,5 +127,34 @@ TEST(Erosion, SolidsWhoseStepFallsBelowDtminAreDeleted) {
   }
 }
 
+/// The far face of a cube is thrown through the near one: with ERODE = 1 the cube turned inside out is deleted and its nodes fly
+/// on with their velocity, without it the run breaks and says which element it was.
+TEST(Erosion, SolidsTurnedInsideOutAreDeleted) {
+  for (const int erode : {1, 0}) {
+    Bricks b;
+    b.column(b.part(ElasticMaterial{density, 1e6, 0.0, 0, 0}), 1, h);
+    for (const NodeIndex n : {4, 5, 6, 7}) {
+      InitialVelocity initial;
+      initial.nodes = {n};
+      initial.velocity = {0, 0, -30};
+      b.model.initial_velocities.push_back(initial);
+    }
+    b.model.control.bulk_q1 = b.model.control.bulk_q2 = 1e-12;  // it would stop the face
+    b.model.control.time_step.erode = erode;
+    b.model.control.termination.end_time = 0.05;
+    Diagnostics diagnostics;
+    Solver solver(b.model, {}, diagnostics);
+    if (erode == 0) {
+      EXPECT_THROW(solver.run(), RunError);
+      continue;
+    }
+    EXPECT_EQ(solver.run(), StopReason::end_time);
+    const State& s = solver.state();
+    EXPECT_EQ(s.results.deleted_solids, 1);
+    EXPECT_NEAR(s.nodes.v[4].z, -30, 1e-9);
+    EXPECT_NEAR(s.nodes.x[4].z, h - 30 * s.clock.time, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace kardan

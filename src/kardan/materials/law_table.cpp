@@ -108,9 +108,9 @@ constexpr Row rows[] = {
     {6, true, true, false, &make<Viscoelastic>, &viscoelastic_kernels_of_isa},
     {7, true, true, false, &make<BlatzKo>, &blatz_ko_kernels_of_isa},
     {9, true, true, false, &make<NullMaterial>, &null_material_kernels_of_isa},
-    {12, true, true, false, &make<PowerPlastic>, &power_plastic_kernels_of_isa},
+    {12, true, true, true, &make<PowerPlastic>, &power_plastic_kernels_of_isa},
     {15, true, true, false, &make<JohnsonCook>, &johnson_cook_kernels_of_isa},
-    {18, true, true, false, &make<PowerPlastic>, &power_plastic_kernels_of_isa},
+    {18, true, true, true, &make<PowerPlastic>, &power_plastic_kernels_of_isa},
     {24, true, true, true, &make<PiecewisePlastic>, &piecewise_plastic_kernels_of_isa},
     {27, true, true, false, &make<MooneyRivlin>, &mooney_rivlin_kernels_of_isa},
     {31, true, false, false, &make<FrazerNash>, &frazer_nash_kernels_of_isa},
@@ -118,9 +118,9 @@ constexpr Row rows[] = {
     {63, true, false, false, &make<CrushableFoam>, &crushable_foam_kernels_of_isa},
     {77, true, true, false, &make<HyperelasticRubber>, &hyperelastic_rubber_kernels_of_isa, 'H'},
     {77, true, true, false, &make<Ogden>, &ogden_kernels_of_isa, 'O'},
-    {98, true, true, false, &make<PowerPlastic>, &power_plastic_kernels_of_isa},
-    {100, false, false, true, &make<Spotweld>, &spotweld_kernels_of_isa},
-    {123, true, true, false, &make<RatePlastic>, &rate_plastic_kernels_of_isa},  // and 24 where the law above does not do what the deck asks
+    {98, true, true, true, &make<PowerPlastic>, &power_plastic_kernels_of_isa},
+    {100, true, false, true, &make<Spotweld>, &spotweld_kernels_of_isa},
+    {123, true, true, true, &make<RatePlastic>, &rate_plastic_kernels_of_isa},  // and 24 where the law above does not do what the deck asks
 };
 
 bool serves(const Row& row, LawUse use) {

@@ -39,7 +39,8 @@ double derivative(const Monomial& m, const Invariants& i) {
   return d / i.faces;
 }
 
-/// Least squares of `columns` x = right by Gram and Schmidt, twice; empty where a column depends on those before it.
+}  // namespace
+
 std::vector<double> least_squares(std::vector<std::vector<double>> columns, std::vector<double> right) {
   const std::size_t n = columns.size(), rows = right.size();
   std::vector<std::vector<double>> r(n, std::vector<double>(n, 0.0));
@@ -71,8 +72,6 @@ std::vector<double> least_squares(std::vector<std::vector<double>> columns, std:
   return projected;
 }
 
-}  // namespace
-
 PronySeries prony_series(LawFields& fields) {
   PronySeries series;
   for (std::size_t i = 1;; ++i) {
@@ -93,23 +92,32 @@ void check_rubber(LawFields& fields) {
   fields.refuse("g", "frequency independent damping (G, SIGF)", "set G = 0, or use Prony terms");
 }
 
-std::vector<double> fit_invariants(LawFields& fields, const char* lcid, const RubberFit& fit, const std::vector<Monomial>& terms) {
+TestPoints test_points(LawFields& fields, const char* lcid) {
   const double length = fields["sgl"], area = fields["sw"] * fields["st"];
   const Curve* curve = fields.curve(lcid);
+  TestPoints points;
   if (!fields.need(curve && length > 0 && area > 0, "has neither constants nor a test to fit them to",
                    "give the constants, or SGL, SW, ST > 0 and the curve of the test")) {
     return {};
   }
-  std::vector<std::vector<double>> columns(terms.size());
-  std::vector<double> right;
   for (std::size_t i = 0; i < curve->x.size(); ++i) {
-    const double stretch = 1 + curve->x[i] / length;
-    if (!fields.need(stretch > 0, "has a test curve that makes the specimen shorter than nothing", "correct SGL or the curve")) return {};
+    points.stretch.push_back(1 + curve->x[i] / length);
+    points.stress.push_back(curve->y[i] / area);
+    if (!fields.need(points.stretch.back() > 0, "has a test curve that makes the specimen shorter than nothing", "correct SGL or the curve")) return {};
+  }
+  return points;
+}
+
+std::vector<double> fit_invariants(LawFields& fields, const char* lcid, const RubberFit& fit, const std::vector<Monomial>& terms) {
+  const TestPoints points = test_points(fields, lcid);
+  if (points.stretch.empty()) return {};
+  std::vector<std::vector<double>> columns(terms.size());
+  for (const double stretch : points.stretch) {
     Invariants now = invariants_of(fit.test, stretch);
     if (fit.invariants == RubberInvariants::green_strain) now = of_green_strain(now);
     for (std::size_t k = 0; k < terms.size(); ++k) columns[k].push_back(derivative(terms[k], now));
-    right.push_back(curve->y[i] / area);
   }
+  const std::vector<double>& right = points.stress;
   std::vector<double> constants = right.size() < terms.size() ? std::vector<double>{} : least_squares(columns, right);
   fields.need(!constants.empty(), "has a test curve that does not determine its constants", "give more points, or a smaller N");
   return constants;

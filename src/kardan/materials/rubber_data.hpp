@@ -35,4 +35,22 @@ struct Monomial {
 };
 std::vector<double> fit_invariants(LawFields& fields, const char* lcid, const RubberFit& fit, const std::vector<Monomial>& terms);
 
+/// Nominal stress over stretch of a test; empty, with a complaint, where it is not given.
+struct TestPoints {
+  std::vector<double> stretch, stress;
+};
+TestPoints test_points(LawFields& fields, const char* lcid);
+
+/// Least squares of `columns` x = right by Gram and Schmidt, twice; empty where a column depends on those before it.
+std::vector<double> least_squares(std::vector<std::vector<double>> columns, std::vector<double> right);
+
+/// A term mu/alpha (l_1^alpha + l_2^alpha + l_3^alpha - 3) of Ogden's energy.
+struct OgdenTerm {
+  double mu = 0, alpha = 0;
+};
+/// `count` terms with mu alpha > 0 and |alpha| <= 20, fitted likewise by Levenberg's and Marquardt's method (1944, Quart. Appl. Math. 2, 164-168; 1963,
+/// J. SIAM 11, 431-441) from many starts, the best of which counts; complains where the test does not
+/// determine so many.
+std::vector<OgdenTerm> fit_ogden(LawFields& fields, const char* lcid, RubberTest test, std::size_t count);
+
 }  // namespace kardan

@@ -172,6 +172,11 @@ bool SolidForces::set_up_part(const Model& model, SolidShape shape, PartIndex p,
     refuse("hourglass control IHQ = " + std::to_string(type),
            "use IHQ = 1, 2 or 3 (viscous), 4 or 5 (stiffness), 6 (assumed strain), by *HOURGLASS", "*HOURGLASS");
   }
+  if (const HourglassChoice h = hourglass_of(model, part);
+      good && formulation_of(shape, elform, model.control.solid_esort) == &one_point_hexahedron && h.type <= 3 && h.membrane > 0.15) {
+    diagnostics.warning(fmt::format("part {} has viscous hourglass control with QM = {:g}: beyond 0.14 it may be unstable at TSSFAC = 0.9", part.id, h.membrane),
+                        "use QM <= 0.1, or IHQ = 4, 5 or 6", "*HOURGLASS");
+  }
   if (!good) return false;
   const Law& own = laws_[at(p)];
   Shape& target = shapes_[static_cast<std::size_t>(shape)];

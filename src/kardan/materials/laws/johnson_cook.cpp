@@ -57,26 +57,36 @@ void set_spall(JohnsonCook& law, const FieldMaterial& m, const Complain& complai
   law.spall = model == 1 ? Spall::cut_off : model == 2 ? Spall::principal_stress : Spall::mean_stress;
 }
 
+/// Elastic constants: E and PR; with an equation of state, whose bulk modulus counts, only G, which may be that of E and PR.
+void set_elastic(JohnsonCook& law, const FieldMaterial& m, LawSource& source, const Complain& complain) {
+  if (source.use == LawUse::solid && source.equation_of_state() != nullptr) {
+    const double shear = m.value_or("g", 0.5 * m.youngs_modulus / (1 + m.poissons_ratio));
+    if (!(m.density > 0 && shear > 0)) return complain("has no density or no shear modulus", "give RO > 0 and G > 0");
+    const std::optional<PressureLaw> equation = PressureLaw::make(source);
+    if (!equation) return;
+    law.equation = *equation;
+    law.has_equation = true;
+    law.flow.elastic.two_mu = 2 * shear;
+    law.flow.elastic.lambda = equation->initial_bulk() - 2.0 / 3.0 * shear;
+    return;
+  }
+  if (m.youngs_modulus == 0)
+    return complain("has no E: its pressure would need an equation of state", "give E and PR, or, for solids, EOSID of the part");
+  if (!check_elastic_constants(source, m.density, m.youngs_modulus, m.poissons_ratio)) return;
+  law.flow.elastic = Elastic::from(m.youngs_modulus, m.poissons_ratio);
+  const double shear = m.value_or("g", law.flow.elastic.shear());
+  if (std::fabs(shear / law.flow.elastic.shear() - 1) > 0.02) complain("has a G that is not that of E and PR", "give G = E/(2 (1 + PR))");
+}
+
 }  // namespace
 
 std::optional<JohnsonCook> JohnsonCook::make(LawSource& source) {
   const auto& m = std::get<FieldMaterial>(source.material.law);
   const std::size_t errors = source.diagnostics.error_count();
   const Complain complain = [&](const char* what, const char* cure) { source.diagnostics.error(source.name + " " + what, cure, m.keyword); };
-  if (source.use == LawUse::solid && source.equation_of_state() != nullptr) {
-    complain("has an equation of state (EOSID of its part), which this version does not compute with this law",
-             "set EOSID = 0 and give E and PR, whose bulk modulus makes the pressure");
-    return std::nullopt;
-  }
-  if (m.youngs_modulus == 0) {
-    complain("has no E: its pressure would need an equation of state", "give E and PR, whose bulk modulus makes the pressure");
-    return std::nullopt;
-  }
-  if (!check_elastic_constants(source, m.density, m.youngs_modulus, m.poissons_ratio)) return std::nullopt;
   JohnsonCook law;
-  law.flow.elastic = Elastic::from(m.youngs_modulus, m.poissons_ratio);
-  const double shear = m.value_or("g", law.flow.elastic.shear());
-  if (std::fabs(shear / law.flow.elastic.shear() - 1) > 0.02) complain("has a G that is not that of E and PR", "give G = E/(2 (1 + PR))");
+  set_elastic(law, m, source, complain);
+  if (source.diagnostics.error_count() != errors) return std::nullopt;
   HeatedYield& y = law.flow.yield;
   y.cold = johnson_cook_yield(source, m);
   set_rate(y.cold, m, complain);

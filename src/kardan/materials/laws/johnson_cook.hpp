@@ -2,7 +2,8 @@
 // K = E/(3 (1 - 2 nu)).
 //
 // Sources: Johnson and Cook 1983, Proc. 7th Int. Symp. Ballistics, 541-547 (strength); 1985, Eng. Fract. Mech. 21, 31-48 (fracture);
-// Hallquist, LS-DYNA Theory Manual 2006, Material Model 15. With the mechanical part of power_plastic.hpp, Y0(p, r),
+// Hallquist, LS-DYNA Theory Manual 2006, Material Model 15. In solids whose part names an equation of state its pressure takes the place of
+// the linear one; s* is then that of the pressure at the step's start. With the mechanical part of power_plastic.hpp, Y0(p, r),
 //   Y = Y0 (1 - T*^M),   T* = (T - TR)/(TM - TR) from 0 to 1,   dT = q dp/(rho CP)         all plastic work is heat
 //   dD = dp/e_f,   e_f = max((D1 + D2 exp(D3 s*)) (1 + D4 log r*) (1 + D5 T*), EFMIN),   s* = mean stress (tension positive)/q.
 // The yield stress of a step is that of the temperature at its start. A point fails at D = 1; with EROD it keeps its pressure instead.
@@ -12,6 +13,7 @@
 // Spalled solids carry compression only, points of shells fail.
 #pragma once
 
+#include "kardan/materials/equation_of_state.hpp"
 #include "kardan/materials/laws/power_plastic.hpp"
 #include "kardan/materials/principal.hpp"
 
@@ -73,14 +75,16 @@ struct HeatedYield {
 
 enum class Spall { no, cut_off, principal_stress, mean_stress };
 
-/// A point keeps what its yield stress needs and 1 if it has spalled.
+/// A point keeps what its yield stress needs, 1 if it has spalled, and what its equation of state needs.
 struct JohnsonCook {
-  static constexpr std::size_t history = 4, tensors = 0, plastic_strain = 0;
+  static constexpr std::size_t equation_place = 4, history = equation_place + PressureLaw::history, tensors = 0, plastic_strain = 0;
 
   J2Flow<HeatedYield> flow;
   Spall spall = Spall::no;
   double tension = 0;  ///< -PC
   bool keeps = false;  ///< EROD: solids that have failed stay, with their pressure
+  bool has_equation = false;
+  PressureLaw equation;
 
   static std::optional<JohnsonCook> make(LawSource& source);
   double longitudinal() const { return flow.longitudinal(); }
@@ -90,6 +94,22 @@ struct JohnsonCook {
   void start(double* values) const {
     flow.start(values);
     values[3] = 0;
+    if (has_equation) equation.start(values + equation_place);
+  }
+  std::size_t used_history() const { return has_equation ? history : equation_place; }
+
+  /// The flow at the pressure of t_(n-1), then the pressure of t_n.
+  template <class R>
+  [[gnu::always_inline]] void update_with_equation(MaterialPoint<R>& p, const StepTime& t, double* values) const {
+    const R one(1.0), before = trace(p.stress) * R(-1.0 / 3.0);
+    const SymmetricTensor<R> old = scaled(p.stress, one, before);
+    p.strain = scaled(p.strain, one, trace(p.strain) * R(-1.0 / 3.0));
+    flow.update(p, t, values);
+    const SymmetricTensor<R> now = scaled(p.stress, one, trace(p.stress) * R(-1.0 / 3.0));
+    const R work = R(0.5) * (contraction(old, p.strain) + contraction(now, p.strain));
+    const auto state = equation.advance(p, work, before, spall == Spall::cut_off ? -tension : -1e300, values + equation_place * block_lanes);
+    p.stress = scaled(now, one, -state.pressure);
+    p.modulus = state.stiffness + R(4.0 / 3.0 * shear());
   }
 
   /// 1 where the point has spalled, now or before.
@@ -103,7 +123,10 @@ struct JohnsonCook {
 
   template <class R>
   [[gnu::always_inline]] void update(MaterialPoint<R>& p, const StepTime& t, double* values) const {
-    flow.update(p, t, values);
+    if (has_equation)
+      update_with_equation(p, t, values);
+    else
+      flow.update(p, t, values);
     if (spall == Spall::no && !keeps) return;
     SymmetricTensor<R>& s = p.stress;
     const R zero(0.0), mean = (s.xx + s.yy + s.zz) * R(1.0 / 3.0);
@@ -125,7 +148,7 @@ struct JohnsonCook {
 
 /// The same in plane stress.
 struct JohnsonCookShell {
-  static constexpr std::size_t history = JohnsonCook::history;
+  static constexpr std::size_t history = JohnsonCook::equation_place;
 
   JohnsonCook law;
   J2PlaneStress<HeatedYield> flow;

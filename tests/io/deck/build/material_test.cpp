@@ -197,6 +197,29 @@ TEST(BuildMaterial, MetalsAreConvertedToTheMainDecksUnits) {
   std::filesystem::remove_all(folder);
 }
 
+/// mm, t, s to m, kg, s: stresses 1e6, lengths 1e-3, rates as they are.
+TEST(BuildMaterial, RubbersAreConvertedToTheMainDecksUnits) {
+  const auto folder = std::filesystem::temp_directory_path() / ("kardan_build_rubbers_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "rubbers.k") << "*KEYWORD\n*MAT_BLATZ-KO_RUBBER\n1,1e-9,1.5\n*MAT_MOONEY-RIVLIN_RUBBER\n2,1e-9,.495,.8,.2\n25.,6.,2.,0\n"
+                                         "*MAT_FRAZER_NASH_RUBBER_MODEL\n3,1e-9,.495,1.,.2,.3,.4\n.5,.6,-.7,.8,1.\n25.,6.,2.,0\n"
+                                         "*MAT_HYPERELASTIC_RUBBER\n4,1e-9,.495\n.5,.2,.1,.05,.01,.002\n.4,30.\n"
+                                         "*MAT_OGDEN_RUBBER\n5,1e-9,.495\n.6,-.01\n1.3,-2.\n.4,30.\n*END\n";
+  std::ofstream(folder / "main.k") << "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*INCLUDE_TRANSFORM\nrubbers.k\n\n\n1000.,1.,.001\n\n*END\n";
+  Diagnostics diagnostics;
+  const Model m = load_model(folder / "main.k", {}, diagnostics);
+  ASSERT_TRUE(diagnostics.ok()) << diagnostics.all()[0].message;
+  const auto near = [&](std::size_t i, const char* field, double expected) {
+    EXPECT_NEAR(std::get<FieldMaterial>(m.materials.at(i).law).value(field) / expected, 1, 1e-12) << i << field;
+  };
+  for (std::size_t i = 0; i < 5; ++i) near(i, "ro", 1000);
+  near(0, "g", 1.5e6);
+  near(1, "a", .8e6), near(1, "b", .2e6), near(1, "sgl", .025), near(1, "sw", .006), near(1, "st", .002), near(1, "pr", .495);
+  near(2, "c100", 1e6), near(2, "c400", .4e6), near(2, "c110", .5e6), near(2, "c010", -.7e6), near(2, "c020", .8e6), near(2, "exit", 1), near(2, "sgl", .025);
+  near(3, "c10", .5e6), near(3, "c30", 2e3), near(3, "g1", .4e6), near(3, "beta1", 30);
+  near(4, "mu1", .6e6), near(4, "alpha1", 1.3), near(4, "mu2", -1e4), near(4, "alpha2", -2), near(4, "g1", .4e6), near(4, "beta1", 30);
+}
+
 TEST(BuildMaterial, EquationsOfStateAreNamedByTheirParts) {
   const Built d(two_blocks + "*MAT_NULL\n5,8.93,-1.5,.1\n*EOS_GRUNEISEN\n7,3.94,1.489,.02,.01,2.02,.47,.5\n1.\n*EOS_LINEAR_POLYNOMIAL\n8,.1,.2,.3,.4,.5,.6,.7\n2.5,1.\n"
                 "*PART\nfluid\n9,1,5,8\n");
