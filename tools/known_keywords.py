@@ -16,7 +16,7 @@ MARKER = "# Known by name only; rewritten by tools/known_keywords.py"
 RULES = [
     (r"CONTACT_FORCE_TRANSDUCER|RIGIDWALL_FORCE_TRANSDUCER", "not_needed", "measures contact forces, acts on nothing"),
     (r"CONTACT_", "stops", "contact is not built yet: parts would pass through each other; --without contact leaves it out at your own risk"),
-    (r"RIGIDWALL_", "stops", "rigid walls are not built yet: parts would pass through them; --without contact leaves them out at your own risk"),
+    (r"RIGIDWALL_", "stops", "rigid walls that deform are not built: parts would pass through them; --without contact leaves them out at your own risk"),
     (r"DATABASE_", "not_needed", "output only"),
     (r"CONTROL_(ACCURACY|SOLID$|MPP|PARALLEL|CPU|CHECK|LSDA|REQUIRE|START|SUBCYCLE$|OUTPUT|UNITS|DEBUG)", "not_needed",
      "tuning or output of another solver"),

@@ -139,11 +139,35 @@ TEST(D3plot, StateBeginsWithTimeAndEnergies) {
   EXPECT_FLOAT_EQ(w.back(), -999999.0f);
 }
 
+/// Two walls, the second one moved by 0.5 along z.
+void add_walls(Model& m, State& s) {
+  RigidWall wall;
+  wall.point = {1, 2, 3};
+  m.rigid_walls.assign(2, wall);
+  s.walls.resize(2);
+  s.walls[0].normal_force = 7;
+  s.walls[1].displacement = {0, 0, 0.5};
+}
+
+TEST(D3plot, ForcesAndPlacesOfWallsFollowThePartsEnergies) {
+  Model m = make_model();
+  State s = make_state(m);
+  add_walls(m, s);
+  const auto directory = output_directory();
+  D3plotWriter writer(directory / "d3plot", label, m, s, {});
+  writer.write_state(m, s);
+  EXPECT_EQ(words_of<std::int32_t>(directory / "d3plot")[18], 6 + 7 * 5 + 4 * 2);
+  const auto w = words_of<float>(directory / "d3plot01");
+  const auto walls = w.begin() + 7 + 7 * 5;
+  EXPECT_THAT(std::vector(walls, walls + 8), ::testing::ElementsAre(7, 0, 1, 2, 3, 1, 2, 3.5f));
+}
+
 TEST(D3plot, VtkSeesEveryNodeElementAndPart) {
   SKIP_WITHOUT_VTK();
-  const Model m = make_model();
+  Model m = make_model();
   const auto directory = output_directory();
   State s = make_state(m);
+  add_walls(m, s);
   s.results.shell.stress.assign(4 * 3, StressVector{});
   s.results.shell.stress[2 * 3 + 1] = {1, 2, 3, 4, 5, 6};  // shell 41, inner surface
   s.results.shell.membrane.assign(4, Vec3{});

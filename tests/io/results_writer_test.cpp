@@ -58,6 +58,31 @@ testing::ScriptResult check_histories(const std::filesystem::path& directory, co
   return testing::run_script("check_histories.py", "'" + directory.string() + "' '" + json.string() + "'");
 }
 
+TEST(ResultsWriter, ForcesOnWallsAndTheirSegments) {
+  Model m = make_model();
+  State s = make_state(m);
+  m.rigid_walls.resize(2);
+  m.rigid_walls[1].title = "barrier";
+  s.walls.resize(2);
+  s.walls[0].id = 4;
+  s.walls[1].id = 9;
+  s.walls[1].force = {1, 2, -30};
+  s.walls[1].normal_force = 30;
+  s.walls[1].segment_force = {{0, 0, -20}, {1, 0, -5}};
+  ask(m, {OutputFile::rwforc}, 0.1, 3);
+  const auto directory = output_directory();
+  Diagnostics diagnostics;
+  ResultsWriter writer(directory, m, s, {}, diagnostics);
+  run(m, s, writer, 0.1, 10);
+  const std::string text = text_of(directory / "rwforc");
+  EXPECT_THAT(text, HasSubstr(" 1.00000E-01       2   3.000000E+01   1.000000E+00   2.000000E+00  -3.000000E+01\n"
+                              "                seg#    \n"
+                              "                   1                  0.000000E+00   0.000000E+00  -2.000000E+01\n"
+                              "                   2                  1.000000E+00   0.000000E+00  -5.000000E+00\n"
+                              "  total force                         1.000000E+00   0.000000E+00  -2.500000E+01\n"));
+  EXPECT_EQ(text.find("seg#", text.find("1.00000E-01       1")), text.find("seg#", text.find("1.00000E-01       2")));
+}
+
 TEST(ResultsWriter, BinoutHoldsTheNumbersAndAsciiTheSame) {
   if (!testing::python_has("json"))
     GTEST_SKIP() << "skipped: /usr/bin/python3 (Debian package python3) is not installed";

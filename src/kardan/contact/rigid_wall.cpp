@@ -1,118 +1,403 @@
 #include "kardan/contact/rigid_wall.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 #include <string>
+
+#include "kardan/state/load_curve.hpp"
 
 namespace kardan {
 
 namespace {
 
+constexpr const char* keyword = "*RIGIDWALL";
 constexpr std::size_t chunk_nodes = 1024;
 /// Fewer chunks than this are done by one thread: waking the others costs more than it saves.
 constexpr std::ptrdiff_t parallel_threshold = 8;
+/// A list of near nodes is made to last for so many steps, and made anew when less than the smaller number may be left: what can happen
+/// within one kick must not lead beyond it, because the velocities of before the kick are known of listed nodes only.
+constexpr double steps_of_list = 32, steps_left = 4;
+/// So few nodes are all looked at in every cycle.
+constexpr std::size_t listed_from = 2048;
 
-double distance(const RigidWall& wall, const Vec3& x) { return dot(x - wall.point, wall.normal); }
+std::string name_of(const RigidWall& wall) { return fmt::format("rigid wall {}", wall.id); }
 
-std::string name_of(const RigidWall& wall) { return "rigid wall " + std::to_string(wall.id); }
+std::ptrdiff_t chunks_of(std::size_t count) { return static_cast<std::ptrdiff_t>((count + chunk_nodes - 1) / chunk_nodes); }
+
+/// f(chunk, begin, end) for the chunks of `count` things, independent of one another.
+template <class F>
+void for_each_chunk(std::size_t count, F&& f) {
+  const std::ptrdiff_t chunks = chunks_of(count);
+#pragma omp parallel for schedule(static) if (chunks > parallel_threshold)
+  for (std::ptrdiff_t c = 0; c < chunks; ++c) {
+    const std::size_t begin = static_cast<std::size_t>(c) * chunk_nodes;
+    f(static_cast<std::size_t>(c), begin, std::min(begin + chunk_nodes, count));
+  }
+}
+
+template <class T>
+void gather(std::vector<std::vector<T>>& parts, std::ptrdiff_t count, std::vector<T>& all) {
+  all.clear();
+  for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) all.insert(all.end(), parts[c].begin(), parts[c].end());
+}
+
+void warn_of_nodes_inside(const Model& model, const State& state, const RigidWall& wall, const WallShape& shape, Diagnostics& diagnostics) {
+  std::vector<std::pair<double, NodeIndex>> inside;
+  for (const NodeIndex n : wall.nodes) {
+    const Vec3& x = state.nodes.x[n];
+    const double depth = shape.depth(x).depth;
+    if (depth > 0 && !(shape.has_edges() && shape.beyond_edges(x))) inside.emplace_back(-depth, n);
+  }
+  if (inside.empty()) return;
+  std::sort(inside.begin(), inside.end());
+  std::string deepest;
+  for (std::size_t i = 0; i < std::min<std::size_t>(inside.size(), 5); ++i)
+    deepest += fmt::format("{}{} by {:.4g}", i == 0 ? "" : ", ", model.nodes.id[inside[i].second], -inside[i].first);
+  diagnostics.warning(fmt::format("{} nodes begin behind {}; they are held at their depth. The deepest: {}", inside.size(), name_of(wall), deepest),
+                      "turn the wall's normal to the nodes, or move the wall", keyword);
+}
+
+void warn_of_bodies(const State& state, const RigidWall& wall, Diagnostics& diagnostics) {
+  std::set<UserId> bodies;
+  std::size_t count = 0;
+  for (const NodeIndex n : wall.nodes) {
+    if (state.nodes.body[n] == none) continue;
+    ++count;
+    bodies.insert(state.bodies.info[state.nodes.body[n]].id);
+  }
+  if (count == 0) return;
+  std::string names;
+  std::size_t named = 0;
+  for (const UserId id : bodies)
+    if (++named <= 10) names += fmt::format("{}{}", named == 1 ? "" : ", ", id);
+  if (named > 10) names += fmt::format(" and {} more", named - 10);
+  diagnostics.warning(fmt::format("{} does not hold {} of its nodes, which belong to rigid bodies ({} {}): RWPNAL is 0", name_of(wall), count,
+                                  bodies.size() == 1 ? "part" : "parts", names),
+                      "give RWPNAL on *CONTROL_CONTACT if they should meet it", keyword);
+}
 
 }  // namespace
 
 RigidWalls::RigidWalls(const Model& model, State& state, Diagnostics& diagnostics) {
+  walls_.reserve(model.rigid_walls.size());
   for (const RigidWall& wall : model.rigid_walls) {
-    Wall own{wall, {}};
-    std::vector<NodeIndex>& nodes = own.description.nodes;
-    const auto rigid = std::erase_if(nodes, [&](NodeIndex n) { return state.nodes.body[static_cast<std::size_t>(n)] != none; });
-    std::erase_if(nodes, [&](NodeIndex n) { return !(state.nodes.mass[static_cast<std::size_t>(n)] > 0); });
-    const auto behind = std::count_if(nodes.begin(), nodes.end(), [&](NodeIndex n) {
-      return distance(wall, state.nodes.x[static_cast<std::size_t>(n)]) < 0;
-    });
-    if (rigid > 0) {
-      diagnostics.warning(name_of(wall) + " does not hold " + std::to_string(rigid) + " of its nodes, which belong to rigid bodies", {},
-                          "*RIGIDWALL_PLANAR");
-    }
-    if (behind > 0) {
-      diagnostics.warning(std::to_string(behind) + " nodes begin behind " + name_of(wall) + "; they are held at their depth",
-                          "turn the wall's normal to the nodes, or move the wall", "*RIGIDWALL_PLANAR");
-    }
-    own.v_before.resize(nodes.size());
-    walls_.push_back(std::move(own));
+    Wall& own = walls_.emplace_back(model, wall);
+    share_nodes(model, state, own, diagnostics);
+    const std::vector<NodeIndex>& nodes = own.description.nodes;
+    own.marks.assign(nodes.size(), 0);
+    if (wall.soft_cycles > 0) own.braked.assign(nodes.size(), 0);
+    own.velocity = wall.normal * wall.velocity;
     WallReport report;
     report.id = wall.id;
+    report.segment_force.resize(wall.segments.size());
     state.walls.push_back(report);
+    Registry& registry = state.registry;
+    registry.add_value({"walls.displacement", "length", "contact.apply"}, own.displacement);
+    registry.add_value({"walls.velocity", "length/time", "contact.hold"}, own.velocity);
+    registry.add_value({"walls.loss", "energy", "contact.close_kick"}, own.loss);
+    registry.add_value({"walls.drive", "energy", "contact.close_kick"}, own.drive);
+    registry.add({"walls.marks", "1", "contact.hold"}, own.marks);
+    registry.add({"walls.braked", "1", "contact.hold"}, own.braked);
+    own.penalty.register_state(registry);
   }
-  dissipated_.assign(walls_.size(), 0.0);
-  dissipated_now_.assign(walls_.size(), 0.0);
-  if (!empty()) state.registry.add({"walls.dissipated", "energy", "contact.hold"}, dissipated_);
-}
-
-void RigidWalls::before_kick(const State& state) {
-  for (Wall& wall : walls_) {
-    const auto count = static_cast<std::ptrdiff_t>(wall.v_before.size());
-#pragma omp parallel for schedule(static) if (count > parallel_threshold * static_cast<std::ptrdiff_t>(chunk_nodes))
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      wall.v_before[k] = state.nodes.v[static_cast<std::size_t>(wall.description.nodes[k])];
+  Vec3 low = state.nodes.x.empty() ? Vec3{} : state.nodes.x[0], high = low;
+  for (const Vec3& x : state.nodes.x)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], x[k]);
+      high[k] = std::max(high[k], x[k]);
     }
+  smallest_reach_ = 1e-3 * norm(high - low);
+}
+
+/// Which of the wall's nodes are held by the constraint method and which by springs.
+void RigidWalls::share_nodes(const Model& model, const State& state, Wall& wall, Diagnostics& diagnostics) const {
+  RigidWall& w = wall.description;
+  const double penalty = model.control.contact.wall_penalty, scale = std::abs(penalty) * w.penalty_scale;
+  if (penalty == 0) warn_of_bodies(state, w, diagnostics);
+  std::erase_if(w.nodes, [&](NodeIndex n) { return state.nodes.body[n] == none ? !(state.nodes.mass[n] > 0) : penalty == 0; });
+  if (w.birth <= 0) warn_of_nodes_inside(model, state, w, wall.shape, diagnostics);
+  std::vector<NodeIndex> sprung;
+  std::erase_if(w.nodes, [&](NodeIndex n) {
+    const bool by_spring = penalty < 0 || state.nodes.body[n] != none;
+    if (by_spring) sprung.push_back(n);
+    return by_spring;
+  });
+  wall.penalty.initialise(state, sprung, scale);
+  if (sprung.empty()) return;
+  if (w.welds || w.orthotropic || w.soft_cycles > 0)
+    diagnostics.error(fmt::format("{} nodes meet {} by penalty (RWPNAL), with which FRIC 2 and 3, _ORTHO and SOFT are not available", sprung.size(),
+                                  name_of(w)), "exempt these nodes (NSIDEX), or leave out the option", keyword);
+  if (!(scale > 0) || scale > WallPenalty::largest_scale)
+    diagnostics.error(fmt::format("RWPNAL RWKSF = {:g} of {} would not be stable", scale, name_of(w)),
+                      fmt::format("give a product up to {:g}; 1 is usual", WallPenalty::largest_scale), keyword);
+}
+
+/// The wall begins to exist: nodes that stand behind the surface's edges may stay there.
+void RigidWalls::bear(const Model& model, const State& state, Wall& wall) const {
+  const RigidWall& w = wall.description;
+  wall.born = true;
+  if (w.motion != none && w.motion_is_displacement)
+    wall.displacement = w.motion_direction * load_curve_value(model, state.clock, w.motion, state.clock.time - w.birth);
+  wall.penalty.bear(state, wall.shape, wall.displacement);
+  if (!wall.shape.has_edges()) return;
+  for (std::size_t k = 0; k < w.nodes.size(); ++k) {
+    const Vec3 r = state.nodes.x[w.nodes[k]] - wall.displacement;
+    if (wall.shape.depth(r).depth > 0 && wall.shape.beyond_edges(r)) wall.marks[k] |= Mark::behind;
   }
 }
 
-RigidWalls::Sum RigidWalls::hold_chunk(const Wall& wall, std::size_t begin, std::size_t end, State& state) const {
+/// Lists the nodes that can reach the wall within `steps_of_list` steps.
+void RigidWalls::list_near(const State& state, Wall& wall, double fastest) {
+  const std::vector<NodeIndex>& nodes = wall.description.nodes;
+  const auto chunks = chunks_of(nodes.size());
+  chunk_near_.resize(std::max(chunk_near_.size(), static_cast<std::size_t>(chunks)));
+  chunk_speed_.assign(static_cast<std::size_t>(chunks), 0.0);
+  for_each_chunk(nodes.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      chunk_speed_[c] = std::max(chunk_speed_[c], dot(state.nodes.v[nodes[k]], state.nodes.v[nodes[k]]));
+  });
+  for (const double speed : chunk_speed_) fastest = std::max(fastest, std::sqrt(speed));
+  const bool first = wall.skin < 0;
+  const double reach = steps_of_list * state.clock.dt * (fastest + norm(wall.velocity));
+  wall.skin = nodes.size() < listed_from ? std::numeric_limits<double>::infinity() : smallest_reach_ + reach;
+  wall.travelled = 0;
+  for_each_chunk(nodes.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
+    chunk_near_[c].clear();
+    for (std::size_t k = begin; k < end; ++k) {
+      const Vec3 r = state.nodes.x[nodes[k]] - wall.displacement;
+      std::uint8_t& mark = wall.marks[k];
+      const bool edges = wall.shape.has_edges(), inside = edges && wall.shape.depth(r).depth > 0;
+      // What was out of sight and is behind the surface now has gone round it.
+      if (inside && !first && (mark & Mark::listed) == 0) mark |= Mark::behind;
+      const bool near = wall.shape.clearance(r) <= wall.skin || (inside && (mark & Mark::behind) == 0);
+      mark = static_cast<std::uint8_t>(near ? mark | Mark::listed : mark & ~Mark::listed);
+      if (near) chunk_near_[c].push_back(static_cast<std::uint32_t>(k));
+    }
+  });
+  gather(chunk_near_, chunks, wall.near);
+}
+
+void RigidWalls::apply(const Model& model, State& state, double fastest) {
+  const Clock& clock = state.clock;
+  for (Wall& wall : walls_) {
+    const RigidWall& w = wall.description;
+    if (wall.alive) {
+      wall.displacement += wall.velocity * clock.dt_previous;
+      wall.travelled += clock.dt_previous * (fastest + norm(wall.velocity));
+    }
+    wall.alive = clock.time >= w.birth && clock.time < w.death;
+    wall.held.clear();
+    wall.penalty.let_go();
+    wall.velocity_before = wall.velocity;
+    if (!wall.alive) continue;
+    if (!wall.born) bear(model, state, wall);
+    wall.penalty.apply(state, wall.shape, wall.displacement, w.friction);
+    wall.penalty_power = wall.penalty.power(state, wall.velocity);
+  }
+}
+
+void RigidWalls::before_kick(State& state, double fastest) {
+  for (Wall& wall : walls_) {
+    if (!wall.alive) continue;
+    const std::vector<NodeIndex>& nodes = wall.description.nodes;
+    if (margin(wall) < steps_left * state.clock.dt * (fastest + norm(wall.velocity)) + 0.5 * smallest_reach_) list_near(state, wall, fastest);
+    wall.v_before.resize(wall.near.size());
+    for_each_chunk(wall.near.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) wall.v_before[i] = state.nodes.v[nodes[wall.near[i]]];
+    });
+  }
+}
+
+Vec3 RigidWalls::driven_velocity(const Model& model, const State& state, const Wall& wall) const {
+  const RigidWall& w = wall.description;
+  const Clock& clock = state.clock;
+  const auto value = [&](double time) { return load_curve_value(model, clock, w.motion, time - w.birth); };
+  if (!w.motion_is_displacement) return w.motion_direction * value(clock.time + 0.5 * clock.dt);
+  return (w.motion_direction * value(clock.time + clock.dt) - wall.displacement) / clock.dt;
+}
+
+double RigidWalls::braking_share(const Wall& wall, std::size_t k) {
+  if (wall.braked.empty() || (wall.marks[k] & Mark::welded) != 0) return 1;
+  return 1.0 / std::max(wall.description.soft_cycles - wall.braked[k], 1);
+}
+
+Vec3 RigidWalls::free_velocity(const State& state, const Wall& wall) {
+  const RigidWall& w = wall.description;
+  if (state.clock.relaxing) return {};
+  const double before = dot(wall.velocity, w.normal);
+  obstacles_.clear();
+  for (const std::uint32_t k : wall.near) {
+    const NodeIndex n = w.nodes[k];
+    const Vec3 r = state.nodes.x[n] - wall.displacement;
+    const double gap = -wall.shape.depth(r).depth;
+    if ((wall.marks[k] & Mark::behind) != 0 && gap < 0) continue;
+    if (wall.shape.resist(r, state.nodes.v[n] - wall.velocity, state.clock.dt).passes) continue;
+    const bool fast = (wall.marks[k] & Mark::welded) != 0;
+    obstacles_.push_back({state.nodes.mass[n] * braking_share(wall, k),
+                          dot(state.nodes.v[n], w.normal) + (fast ? 0 : std::max(gap, 0.0) / state.clock.dt), fast});
+  }
+  double velocity = before;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    double mass = w.mass, momentum = w.mass * before - state.clock.kick() * dot(wall.penalty.force(), w.normal);
+    for (const Obstacle& o : obstacles_) {
+      if (!o.welded && o.threshold >= velocity) continue;
+      mass += o.mass;
+      momentum += o.mass * o.threshold;
+    }
+    const double next = momentum / mass;
+    // After the first step the root is approached from above.
+    if (next == velocity || (iteration > 0 && next > velocity)) break;
+    velocity = next;
+  }
+  return w.normal * velocity;
+}
+
+/// What friction leaves of the velocity u against the wall, after the impulse `change` (per mass) along the normal.
+Vec3 RigidWalls::rub(const Wall& wall, const Vec3& u, const Vec3& normal, double change) {
+  const RigidWall& w = wall.description;
+  const Vec3 along = normal * dot(u, normal);
+  Vec3 tangential = u - along;
+  if (w.orthotropic) {
+    const std::array<Vec3, 2> axes{wall.friction_axis, cross(normal, wall.friction_axis)};
+    Vec3 left;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double v = dot(tangential, axes[i]);
+      const double mu = w.orthotropic->dynamic[i] +
+                        (w.orthotropic->statical[i] - w.orthotropic->dynamic[i]) * std::exp(-w.orthotropic->decay[i] * std::abs(v));
+      left += axes[i] * std::copysign(std::max(std::abs(v) - mu * change, 0.0), v);
+    }
+    return along + left;
+  }
+  const double sliding = norm(tangential), stopped = w.friction >= 1 ? sliding : std::min(sliding, w.friction * change);
+  if (stopped > 0) tangential *= 1 - stopped / sliding;
+  return along + tangential;
+}
+
+void RigidWalls::hold_chunk(Wall& wall, std::size_t begin, std::size_t end, State& state, std::vector<Held>& held) const {
   const RigidWall& w = wall.description;
   const double dt = state.clock.dt, kick = state.clock.kick();
-  Sum sum;
-  for (std::size_t k = begin; k < end; ++k) {
-    const auto n = static_cast<std::size_t>(w.nodes[k]);
-    Vec3& v = state.nodes.v[n];
-    const double normal = dot(v, w.normal), allowed = -std::max(distance(w, state.nodes.x[n]), 0.0) / dt;
-    if (normal >= allowed) continue;
-    const double change = allowed - normal;
-    Vec3 tangential = v - w.normal * normal;
-    const double sliding = norm(tangential), stopped = w.friction >= 1 ? sliding : std::min(sliding, w.friction * change);
-    if (stopped > 0) tangential *= 1 - stopped / sliding;
-    const Vec3 held = w.normal * allowed + tangential, force = (held - v) * (state.nodes.mass[n] / kick);
-    v = held;
-    sum.force += force;
-    sum.power_before += dot(force, wall.v_before[k]);
-    sum.power_after += dot(force, held);
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t k = wall.near[i];
+    const NodeIndex n = w.nodes[k];
+    std::uint8_t& mark = wall.marks[k];
+    const Vec3 r = state.nodes.x[n] - wall.displacement, u = state.nodes.v[n] - wall.velocity;
+    if ((mark & Mark::behind) != 0) {
+      if (wall.shape.depth(r).depth > 0) continue;
+      mark = static_cast<std::uint8_t>(mark & ~Mark::behind);
+    }
+    WallShape::Resistance resistance = wall.shape.resist(r, u, dt);
+    if (resistance.passes) mark = static_cast<std::uint8_t>((mark | Mark::behind) & ~Mark::welded);
+    if ((mark & Mark::welded) != 0) resistance.change = -dot(u, resistance.normal);
+    if (!(resistance.change > 0) && (mark & Mark::welded) == 0) {
+      if (!wall.braked.empty()) wall.braked[k] = 0;
+      continue;
+    }
+    const double change = resistance.change * braking_share(wall, k);
+    if (!wall.braked.empty() && wall.braked[k] < w.soft_cycles) ++wall.braked[k];
+    if (w.welds && dot(wall.v_before[i] - wall.velocity_before, resistance.normal) < -w.weld_velocity) mark |= Mark::welded;
+    Vec3 after = rub(wall, u + resistance.normal * change, resistance.normal, change);
+    if (wall.shape.concave()) {
+      const WallShape::Resistance again = wall.shape.resist(r, after, dt);
+      if (again.change > 0) after += again.normal * again.change;
+    }
+    const Vec3 force = (after - u) * (state.nodes.mass[n] / kick);
+    state.nodes.v[n] = after + wall.velocity;
+    held.push_back({n, force, dot(force, resistance.normal), dot(force, wall.v_before[i] - wall.velocity_before)});
   }
-  return sum;
 }
 
-void RigidWalls::hold(State& state) {
+void RigidWalls::hold(const Model& model, State& state, double fastest) {
   const Clock& clock = state.clock;
   for (std::size_t i = 0; i < walls_.size(); ++i) {
-    const Wall& wall = walls_[i];
+    Wall& wall = walls_[i];
+    const RigidWall& w = wall.description;
     WallReport& report = state.walls[i];
-    dissipated_now_[i] = dissipated_[i];
-    report = {report.id, {}, 0, dissipated_[i]};
-    if (clock.time < wall.description.birth || clock.time >= wall.description.death) continue;
-    const std::size_t nodes = wall.description.nodes.size();
-    const auto chunks = static_cast<std::ptrdiff_t>((nodes + chunk_nodes - 1) / chunk_nodes);
-    sums_.assign(static_cast<std::size_t>(chunks), Sum{});
-#pragma omp parallel for schedule(static) if (chunks > parallel_threshold)
-    for (std::ptrdiff_t c = 0; c < chunks; ++c) {
-      const std::size_t begin = static_cast<std::size_t>(c) * chunk_nodes;
-      sums_[static_cast<std::size_t>(c)] = hold_chunk(wall, begin, std::min(begin + chunk_nodes, nodes), state);
+    if (!wall.alive) {
+      sum_forces(wall, report);
+      continue;
     }
-    Sum total;
-    for (const Sum& s : sums_) {
-      total.force += s.force;
-      total.power_before += s.power_before;
-      total.power_after += s.power_after;
+    if (w.motion != none) wall.velocity = driven_velocity(model, state, wall);
+    // A kick beyond what the list was made for. The velocities of before it are lost of nodes that were not listed.
+    const double reach = fastest + norm(wall.velocity) + (w.mass > 0 ? fastest : 0.0);
+    if (margin(wall) < clock.dt * reach) {
+      list_near(state, wall, fastest);
+      wall.v_before.clear();
+      for (const std::uint32_t k : wall.near) wall.v_before.push_back(state.nodes.v[w.nodes[k]]);
     }
-    report.force = -total.force;
-    report.normal_force = dot(total.force, wall.description.normal);
-    // The kick changes the kinetic energy by kick F.(v_{n-1/2} + v_{n+1/2})/2, and by dt_previous/2 F.(v_{n-1/2} + v_n)/2 up to t_n.
-    const double power_now = total.power_before + clock.share_before() * (total.power_after - total.power_before);
-    dissipated_now_[i] -= 0.25 * clock.dt_previous * (total.power_before + power_now);
-    dissipated_[i] -= 0.5 * clock.kick() * (total.power_before + total.power_after);
-    report.energy = dissipated_now_[i];
+    if (w.mass > 0) wall.velocity = free_velocity(state, wall);
+    if (const auto& o = w.orthotropic) {
+      const Vec3 d = o->node1 == none ? o->direction : state.nodes.x[o->node2] - state.nodes.x[o->node1];
+      const Vec3 a = d - w.normal * dot(d, w.normal);
+      wall.friction_axis = norm(a) > 0 ? normalized(a) : wall.friction_axis;
+    }
+    const auto chunks = chunks_of(wall.near.size());
+    chunk_held_.resize(std::max<std::size_t>(chunk_held_.size(), static_cast<std::size_t>(chunks)));
+    for_each_chunk(wall.near.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
+      chunk_held_[c].clear();
+      hold_chunk(wall, begin, end, state, chunk_held_[c]);
+    });
+    gather(chunk_held_, chunks, wall.held);
+    sum_forces(wall, report);
+    report.displacement = wall.displacement;
+    report.velocity = wall.velocity_before + (wall.velocity - wall.velocity_before) * clock.share_before();
+  }
+}
+
+void RigidWalls::sum_forces(Wall& wall, WallReport& report) const {
+  wall.force = wall.penalty.force();
+  report.normal_force = 0;
+  double power = wall.penalty.pushes().empty() ? 0.0 : wall.penalty_power;
+  for (const WallPenalty::Push& p : wall.penalty.pushes()) report.normal_force += p.pressing;
+  for (const Held& h : wall.held) {
+    wall.force += h.force;
+    report.normal_force += h.pressing;
+    power += h.power_before;
+  }
+  report.force = -wall.force;
+  wall.loss.before(-power);
+  wall.drive.before(dot(wall.force, wall.velocity_before));
+}
+
+void RigidWalls::close_kick(State& state) {
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    Wall& wall = walls_[i];
+    double power = wall.penalty.power(state, wall.velocity);
+    for (const Held& h : wall.held) power += dot(h.force, state.nodes.v[h.node] - wall.velocity);
+    wall.loss_now = state.walls[i].energy = wall.loss.after(-power, state.clock);
+    const double work = wall.drive.after(dot(wall.force, wall.velocity), state.clock);
+    if (wall.description.motion == none) continue;
+    state.energy.external_work += work - wall.drive_counted;
+    wall.drive_counted = work;
   }
 }
 
 void RigidWalls::account(State& state) const {
-  for (const double energy : dissipated_now_) state.energy.stonewall += energy;
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    const Wall& wall = walls_[i];
+    WallReport& report = state.walls[i];
+    state.energy.stonewall += wall.loss_now;
+    if (wall.alive) state.energy.kinetic += 0.5 * wall.description.mass * dot(report.velocity, report.velocity);
+    std::fill(report.segment_force.begin(), report.segment_force.end(), Vec3{});
+    if (wall.segments.empty()) continue;
+    const auto add = [&](const Vec3& place, const Vec3& force) {
+      if (const Index segment = wall.segments.find(place); segment != none) report.segment_force[segment] -= force;
+    };
+    for (const Held& h : wall.held) add(state.nodes.x[h.node] - wall.displacement, h.force);
+    for (const WallPenalty::Push& p : wall.penalty.pushes()) add(p.place, p.force);
+  }
+}
+
+void RigidWalls::restart() {
+  for (Wall& wall : walls_) {
+    wall.loss = wall.drive = {};
+    wall.loss_now = wall.drive_counted = 0;
+    wall.travelled = std::numeric_limits<double>::max();  // a new list
+    wall.velocity = wall.description.normal * wall.description.velocity;
+  }
 }
 
 }  // namespace kardan

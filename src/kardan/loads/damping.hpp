@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "kardan/base/diagnostics.hpp"
-#include "kardan/loads/work_meter.hpp"
 #include "kardan/model/model.hpp"
 #include "kardan/state/state.hpp"
+#include "kardan/state/work_meter.hpp"
 
 namespace kardan {
 

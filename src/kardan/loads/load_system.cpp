@@ -10,7 +10,7 @@
 #include "kardan/loads/rigid_groups.hpp"
 #include "kardan/loads/taken_dofs.hpp"
 #include "kardan/loads/velocity_ties.hpp"
-#include "kardan/loads/work_meter.hpp"
+#include "kardan/state/work_meter.hpp"
 
 namespace kardan {
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "kardan/elements/element_system.hpp"
@@ -21,14 +21,15 @@ constexpr std::size_t parallel_threshold = 8;
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// v += force factor, unless that is not finite. In a cycle that is looked at `before` gets the velocity of before; else the force is
-/// used up. @return whether it was finite.
-inline bool accelerate(Vec3& v, Vec3& force, double factor, Vec3* before) {
+/// used up. @return |v|^2, not finite where v was left as it is.
+inline double accelerate(Vec3& v, Vec3& force, double factor, Vec3* before) {
   const Vec3 after = v + force * factor;
   if (before) *before = v;
-  if (!std::isfinite(dot(after, after))) return false;
+  const double square = dot(after, after);
+  if (!std::isfinite(square)) return square;
   v = after;
   if (!before) force = {};
-  return true;
+  return square;
 }
 
 /// Parts of the elements at each node, one entry an element, in lists by node.
@@ -94,6 +95,7 @@ NodeMover::NodeMover(const Model& model, State& state) {
       unattached_.push_back(static_cast<NodeIndex>(i));
     }
   }
+  chunk_fastest_.assign(chunks_.size(), 0.0);
   find_parts(model, state);
 }
 
@@ -120,26 +122,38 @@ void NodeMover::find_parts(const Model& model, const State& state) {
 }
 
 void NodeMover::kick(const Model& model, State& state, const ElementSystem& elements, bool looked_at) {
-  std::atomic<bool> good{true};
-  for_each_chunk([&](const Chunk& chunk) {
+  find_fastest([&](const Chunk& chunk) {
     elements.add_forces(state, chunk.begin, chunk.end);
-    if (!kick_chunk(chunk, state, looked_at)) good.store(false, std::memory_order_relaxed);
+    return kick_chunk(chunk, state, looked_at);
   });
-  if (!good) not_finite(model, state);
+  if (!std::isfinite(fastest_)) not_finite(model, state);
 }
 
-/// @return false if a velocity would not be finite.
-bool NodeMover::kick_chunk(const Chunk& chunk, State& state, bool looked_at) const {
+/// fastest_ from the largest squares of speeds that f(chunk) returns; infinite if one of them is not finite.
+template <class F>
+void NodeMover::find_fastest(F&& f) {
+  for_each_chunk([&](const Chunk& chunk) { chunk_fastest_[static_cast<std::size_t>(&chunk - chunks_.data())] = f(chunk); });
+  double square = 0;
+  for (const double of_chunk : chunk_fastest_) square = std::max(square, of_chunk);
+  fastest_ = std::sqrt(square);
+}
+
+/// @return largest square of a speed; infinite if a velocity would not be finite.
+double NodeMover::kick_chunk(const Chunk& chunk, State& state, bool looked_at) const {
   NodeState& nodes = state.nodes;
   const double kick = state.clock.kick();
+  double largest = 0;
   bool good = true;
   for (std::size_t k = chunk.first_free; k < chunk.end_free; ++k) {
     const std::size_t i = at(free_[k]);
-    good &= accelerate(nodes.v[i], nodes.force[i], kick * inverse_mass_[k], looked_at ? &nodes.v_now[i] : nullptr);
+    const double square = accelerate(nodes.v[i], nodes.force[i], kick * inverse_mass_[k], looked_at ? &nodes.v_now[i] : nullptr);
+    good &= std::isfinite(square);
+    largest = std::max(largest, square);
     if (inverse_inertia_[k] == 0) continue;
-    good &= accelerate(nodes.omega[i], nodes.moment[i], kick * inverse_inertia_[k], looked_at ? &nodes.omega_now[i] : nullptr);
+    good &= std::isfinite(
+        accelerate(nodes.omega[i], nodes.moment[i], kick * inverse_inertia_[k], looked_at ? &nodes.omega_now[i] : nullptr));
   }
-  return good;
+  return good ? largest : std::numeric_limits<double>::infinity();
 }
 
 void NodeMover::not_finite(const Model& model, const State& state) const {
@@ -198,11 +212,17 @@ void NodeMover::settle_broken(State& state) const {
   }
 }
 
-void NodeMover::drift(State& state) const {
+void NodeMover::drift(State& state) {
   NodeState& nodes = state.nodes;
   const double dt = state.clock.dt;
-  for_each_chunk([&](const Chunk& chunk) {
-    for (std::size_t k = chunk.first_free; k < chunk.end_free; ++k) nodes.x[at(free_[k])] += nodes.v[at(free_[k])] * dt;
+  find_fastest([&](const Chunk& chunk) {
+    double largest = 0;
+    for (std::size_t k = chunk.first_free; k < chunk.end_free; ++k) {
+      const Vec3 v = nodes.v[at(free_[k])];
+      nodes.x[at(free_[k])] += v * dt;
+      largest = std::max(largest, dot(v, v));
+    }
+    return largest;
   });
   for (NodeIndex node : unattached_) nodes.x[at(node)] += nodes.v[at(node)] * dt;
 }

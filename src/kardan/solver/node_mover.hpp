@@ -32,7 +32,9 @@ class NodeMover {
   /// After a cycle that broke: v_now and omega_now are the last velocities known, a and alpha zero.
   void settle_broken(State& state) const;
   /// Positions to t_{n+1}.
-  void drift(State& state) const;
+  void drift(State& state);
+  /// Largest speed of a free node after the last kick() or drift(), whichever was later.
+  double fastest() const { return fastest_; }
   /// After settle(): adds the kinetic energy and the momentum of the free nodes at t_n to state.energy, in total and by part. Where parts
   /// share a node, its own are divided by the number of elements of each part there. Summed in the order of the nodes.
   void account(State& state) const;
@@ -54,13 +56,17 @@ class NodeMover {
 
   template <class F>
   void for_each_chunk(F&& f) const;
+  template <class F>
+  void find_fastest(F&& f);
   void find_parts(const Model& model, const State& state);
-  bool kick_chunk(const Chunk& chunk, State& state, bool looked_at) const;
+  double kick_chunk(const Chunk& chunk, State& state, bool looked_at) const;
   [[noreturn]] void not_finite(const Model& model, const State& state) const;
 
   std::vector<NodeIndex> free_, unattached_;                // ascending
   std::vector<double> inverse_mass_, inverse_inertia_;      // by position in free_; 0 where there is no inertia
   std::vector<Chunk> chunks_;
+  std::vector<double> chunk_fastest_;                       // squares of speeds
+  double fastest_ = 0;
   std::vector<PartIndex> part_;                             // by position in free_; none: no part, or several
   std::vector<SharedNode> shared_;                          // ascending, and the end
   std::vector<Share> shares_;

@@ -10,6 +10,7 @@
 
 #include "kardan/base/rotation.hpp"
 #include "kardan/contact/contact_system.hpp"
+#include "kardan/contact/rigid_wall.hpp"
 #include "kardan/elements/element_system.hpp"
 #include "kardan/loads/load_system.hpp"
 #include "kardan/solver/node_mover.hpp"
@@ -133,6 +134,7 @@ void Solver::relax() {
     clear_forces();
     looked_at_ = false;
     loads_->apply(model_, state_);
+    walls_->apply(model_, state_, nodes_->fastest());
     elements_->internal_forces(model_, state_);
     choose_time_step(*relaxation_rule_);
     contact();
@@ -152,6 +154,7 @@ void Solver::relax() {
   contacts_->restart(state_);
   initial.restore(state_);
   loads_->restart(model_, state_);
+  walls_->restart();
 }
 
 }  // namespace kardan

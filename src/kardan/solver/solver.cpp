@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kardan/contact/contact_system.hpp"
 #include "kardan/contact/rigid_wall.hpp"
@@ -25,6 +26,14 @@ TimeStepOwner owner_of(const Governing& governing) {
   using Kind = TimeStepOwner::Kind;
   static constexpr Kind kinds[] = {Kind::shell, Kind::solid, Kind::beam, Kind::discrete};  // by ElementKind
   return {kinds[static_cast<int>(governing.kind)], governing.element, 0};
+}
+
+/// Upper bound of the free nodes' speeds after the damping, from the largest before and after the kick. Damping of nodes makes each
+/// component of a velocity a sum of those two with weights that make up one in magnitude; relative damping adds the motion of a body.
+double speed_bound(const Model& model, double before, double after) {
+  const bool relative = std::any_of(model.dampings.begin(), model.dampings.end(), [](const DampingLaw& d) { return d.relative_to != none; });
+  if (relative) return std::numeric_limits<double>::infinity();
+  return model.dampings.empty() && model.non_reflecting.empty() ? after : std::hypot(before, after);
 }
 
 }  // namespace
@@ -126,6 +135,7 @@ bool Solver::step() {
     if (relaxation_pending_) relax();
     clear_forces();
     loads_->apply(model_, state_);
+    walls_->apply(model_, state_, nodes_->fastest());
     timers_.lap(Phase::loads);
     elements_->internal_forces(model_, state_);
     nodes_->take_masses(state_, elements_->scale_masses(model_, state_));
@@ -169,7 +179,8 @@ void Solver::contact() {
 }
 
 void Solver::kick() {
-  walls_->before_kick(state_);
+  const double fastest = nodes_->fastest();
+  walls_->before_kick(state_, fastest);
   nodes_->kick(model_, state_, *elements_, looked_at_);
   timers_.lap(Phase::nodes);
   rigid_->gather_forces(state_);
@@ -177,7 +188,7 @@ void Solver::kick() {
   timers_.lap(Phase::loads);
   rigid_->kick(model_, state_);
   timers_.lap(Phase::rigid);
-  walls_->hold(state_);
+  walls_->hold(model_, state_, speed_bound(model_, fastest, nodes_->fastest()));
   loads_->constrain_velocities(model_, state_);
 }
 
@@ -211,6 +222,7 @@ void Solver::account() {
   // Work is summed every cycle; the energies at t_n only where somebody looks at them.
   if (looked_at_) energy.begin(model_.parts.size());
   loads_->account(model_, state_);
+  walls_->close_kick(state_);
   if (!looked_at_) return;
   elements_->account(model_, state_);
   rigid_->account(model_, state_);

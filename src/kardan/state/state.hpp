@@ -152,9 +152,11 @@ struct ContactReport {
 /// RWFORC of one rigid wall at t_n.
 struct WallReport {
   UserId id = 0;
-  Vec3 force;               ///< of the nodes on the wall
-  double normal_force = 0;  ///< pressing positive
-  double energy = 0;        ///< taken from the nodes so far
+  Vec3 force;                       ///< of the nodes on the wall
+  double normal_force = 0;          ///< sum of the pressing forces on the nodes, each along its normal
+  double energy = 0;                ///< taken from the nodes so far: impact, friction and what penalty springs hold
+  Vec3 displacement, velocity;      ///< of the wall
+  std::vector<Vec3> segment_force;  ///< by segment of a wall that has some, like `force`; valid where somebody looks
 };
 
 /// Energies at t_n by the classes GLSTAT prints, per part where a part has it.

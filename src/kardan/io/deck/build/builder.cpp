@@ -104,7 +104,11 @@ const std::unordered_map<std::string, Entry>& table() {
       {"CONSTRAINED_LINEAR_LOCAL", {rest, build_linear_constraint}},
       {"CONSTRAINED_INTERPOLATION", {rest, build_interpolation}},
       {"RIGIDWALL_PLANAR", {rest, build_rigid_wall}},
-      {"DEFINE_FRICTION", {switches, build_friction_table}}};
+      {"DEFINE_FRICTION", {switches, build_friction_table}},
+      {"RIGIDWALL_GEOMETRIC_FLAT", {rest, build_rigid_wall}},
+      {"RIGIDWALL_GEOMETRIC_PRISM", {rest, build_rigid_wall}},
+      {"RIGIDWALL_GEOMETRIC_CYLINDER", {rest, build_rigid_wall}},
+      {"RIGIDWALL_GEOMETRIC_SPHERE", {rest, build_rigid_wall}}};
   return entries;
 }
 
