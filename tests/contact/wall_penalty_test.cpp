@@ -107,8 +107,8 @@ TEST(WallPenalty, FreeNodesWithNegativeRwpnal) {
   c.point({0.3, 0, 1}, {0, 0, -1});
   c.point({0, 0, 1.3}, {0, 0, -1}, 7);
   const WallRun run(c, 1, 1e-3);
-  EXPECT_NEAR(run.v[1].z, 1, 2e-3);
-  EXPECT_NEAR(norm(run.v[0]), 1, 2e-3);
+  EXPECT_NEAR(run.v[1].z, 1, 0.01);  // omega dt = 0.3
+  EXPECT_NEAR(norm(run.v[0]), 1, 0.01);
   EXPECT_LT(run.energy_error(), 1e-12);
 }
 

@@ -71,8 +71,7 @@ TEST(ResultsWriter, ForcesOnWallsAndTheirSegments) {
   s.walls[1].segment_force = {{0, 0, -20}, {1, 0, -5}};
   ask(m, {OutputFile::rwforc}, 0.1, 3);
   const auto directory = output_directory();
-  Diagnostics diagnostics;
-  ResultsWriter writer(directory, m, s, {}, diagnostics);
+  ResultsWriter writer(m, s, directory, {});
   run(m, s, writer, 0.1, 10);
   const std::string text = text_of(directory / "rwforc");
   EXPECT_THAT(text, HasSubstr(" 1.00000E-01       2   3.000000E+01   1.000000E+00   2.000000E+00  -3.000000E+01\n"

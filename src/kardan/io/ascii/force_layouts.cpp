@@ -163,9 +163,18 @@ std::string rwforc_text(const Snapshot& s) {
   const Folder& f = s.folders.at(0);
   const auto& walls = f.meta("setid");
   std::string text;
-  for (std::size_t i = 0; i < walls.size(); ++i)
+  for (std::size_t i = 0; i < walls.size(); ++i) {
     put(text, "{:12.5E}{:8d}{:15.6E}{:15.6E}{:15.6E}{:15.6E}\n", s.time, walls[i], f["normal_force"][i], f["x_force"][i], f["y_force"][i],
         f["z_force"][i]);
+    const std::string path = fmt::format("/rwforc/wall{:03d}", walls[i]);
+    for (const Folder& segments : s.folders) {
+      if (segments.path != path) continue;
+      text += "                seg#    \n";
+      const auto &x = segments["x_force"], &y = segments["y_force"], &z = segments["z_force"];
+      for (std::size_t k = 0; k < x.size(); ++k) put(text, "            {:8d}               {:15.6E}{:15.6E}{:15.6E}\n", k + 1, x[k], y[k], z[k]);
+      put(text, "  total force                      {:15.6E}{:15.6E}{:15.6E}\n", segments["total_x"][0], segments["total_y"][0], segments["total_z"][0]);
+    }
+  }
   return text;
 }
 

@@ -43,7 +43,8 @@ std::uint8_t kind_of_section(const Model& model, const Part& part) {
 }  // namespace
 
 D3plotLayout::D3plotLayout(const Model& model)
-    : nodes(ascending(model.nodes.id)), solids(ascending(model.solids.id)), shells(ascending(model.shells.id)) {
+    : nodes(ascending(model.nodes.id)), solids(ascending(model.solids.id)), shells(ascending(model.shells.id)),
+      walls(static_cast<std::int64_t>(model.rigid_walls.size())) {
   node_number.resize(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     node_number[static_cast<std::size_t>(nodes[i])] = static_cast<std::int32_t>(i + 1);

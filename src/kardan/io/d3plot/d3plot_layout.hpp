@@ -23,6 +23,7 @@ struct D3plotLayout {
                line_parts = 0;            ///< NUMMAT8, NUMMAT4, NUMMAT2; they add up to all parts
   std::vector<std::uint8_t> rigid_shell;  ///< by entry of `shells`
   std::int64_t rigid_shells = 0;
+  std::int64_t walls = 0;
 
   explicit D3plotLayout(const Model& model);
 };

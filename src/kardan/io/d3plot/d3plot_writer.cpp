@@ -84,7 +84,7 @@ void D3plotWriter::control_words(const RunLabel& label, WordBuffer& out) const {
   out.integer(words_.material_types ? 5 : 4);  // 15 NDIM: three dimensions, connectivity unpacked
   out.integer(count(layout_.nodes));           // 16 NUMNP
   out.integer(6);                              // 17 ICODE
-  out.integer(6 + 7 * parts);                  // 18 NGLBV
+  out.integer(6 + 7 * parts + 4 * layout_.walls);  // 18 NGLBV
   out.integer(0);                              // 19 IT
   for (int i = 0; i < 3; ++i) out.integer(1);  // 20-22 IU, IV, IA
   out.integer(count(layout_.solids));          // 23 NEL8

@@ -1,4 +1,6 @@
 // JNTFORC, BNDOUT, SPCFORC, RWFORC, DEFORC and SECFORC.
+#include <fmt/format.h>
+
 #include <array>
 #include <numbers>
 
@@ -173,7 +175,28 @@ Folder spcforc_folder(const Model& model, const State& state) {
   return f;
 }
 
-Folder rwforc_folder(const Model& model, const State& state) {
+namespace {
+
+/// Forces by segment of the wall whose place in the list is `number`, from 1 on.
+Folder wall_segments_folder(const WallReport& wall, std::size_t number) {
+  const std::size_t n = wall.segment_force.size();
+  Folder f;
+  f.path = fmt::format("/rwforc/wall{:03d}", number);
+  IntegerColumn ids{"ids", {}};
+  Vec3 total;
+  for (std::size_t k = 0; k < n; ++k) {
+    ids.values.push_back(static_cast<std::int64_t>(k) + 1);
+    total += wall.segment_force[k];
+  }
+  f.metadata = {std::move(ids)};
+  f.add_vectors("x_force", "y_force", "z_force", n, [&](std::size_t k) { return wall.segment_force[k]; });
+  f.add_vectors("total_x", "total_y", "total_z", 1, [&](std::size_t) { return total; });
+  return f;
+}
+
+}  // namespace
+
+std::vector<Folder> rwforc_folders(const Model& model, const State& state) {
   const std::size_t n = state.walls.size();
   Folder f;
   f.path = "/rwforc/forces";
@@ -189,7 +212,10 @@ Folder rwforc_folder(const Model& model, const State& state) {
   f.add_vectors("x_force", "y_force", "z_force", n, [&](std::size_t i) { return state.walls[i].force; });
   f.add_scalars("normal_force", n, [&](std::size_t i) { return state.walls[i].normal_force; });
   f.add_scalars("energy", n, [&](std::size_t i) { return state.walls[i].energy; });
-  return f;
+  std::vector<Folder> folders{std::move(f)};
+  for (std::size_t i = 0; i < n; ++i)
+    if (!state.walls[i].segment_force.empty()) folders.push_back(wall_segments_folder(state.walls[i], i + 1));
+  return folders;
 }
 
 Folder deforc_folder(const Model& model, const State& state) {

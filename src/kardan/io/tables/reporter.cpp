@@ -58,7 +58,7 @@ Snapshot Reporter::take(OutputFile file, const Model& model, const State& state)
       s.folders = ncforc_folders(model, state);
       break;
     case OutputFile::rwforc:
-      s.folders.push_back(rwforc_folder(model, state));
+      s.folders = rwforc_folders(model, state);
       break;
     default:
       KARDAN_ASSERT(!"a file of Reporter::files()");

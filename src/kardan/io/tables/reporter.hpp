@@ -37,7 +37,8 @@ std::vector<Folder> jntforc_folders(const Model& model, const State& state, cons
 /// /bndout/velocity/nodes and /bndout/velocity/rigidbodies.
 std::vector<Folder> bndout_folders(const Model& model, const State& state);
 Folder spcforc_folder(const Model& model, const State& state);
-Folder rwforc_folder(const Model& model, const State& state);
+/// /rwforc/forces, and /rwforc/wall001 … for walls whose force is reported by segments.
+std::vector<Folder> rwforc_folders(const Model& model, const State& state);
 Folder deforc_folder(const Model& model, const State& state);
 Folder secforc_folder(const Model& model, const State& state);
 Folder rcforc_folder(const Model& model, const State& state);

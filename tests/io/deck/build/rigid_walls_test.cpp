@@ -76,7 +76,7 @@ TEST(BuildRigidWalls, GeometricWalls) {
   EXPECT_EQ(bore.nodes, (std::vector<NodeIndex>{0, 2}));
   EXPECT_EQ(bore.normal, (Vec3{0, 1, 0}));
   EXPECT_EQ((std::array{bore.radius, bore.length_p, bore.friction, bore.birth, bore.death}), (std::array{0.7, 5.0, 0.3, 0.1, 0.2}));
-  EXPECT_NE(b.message(Severity::warning, "by sections"), nullptr);
+  EXPECT_NE(b.messages().find("by sections"), std::string::npos);
   EXPECT_EQ(sphere.shape, Shape::sphere);
   EXPECT_EQ((std::array{sphere.radius, sphere.point.z, sphere.friction}), (std::array{0.5, 7.0, 1.0}));
 }
