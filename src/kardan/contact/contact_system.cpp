@@ -110,6 +110,15 @@ void ContactSystem::add_forces(State& state) const {
           for (std::size_t k = 0; k < 4; ++k)
             if (t.weights[k] != 0) to(s.nodes[k], t.force * -t.weights[k]);
         });
+    for (const auto& contact : penalties_) {
+      if (!contact->edges()) continue;
+      contact->edges()->for_each([&](const auto& a, const auto& wa, const auto& b, const auto& wb, const Vec3& f) {
+        for (std::size_t k = 0; k < 2; ++k) {
+          to(a[k], f * wa[k]);
+          to(b[k], f * -wb[k]);
+        }
+      });
+    }
   };
   std::size_t touches = 0;
   for (const auto& contact : penalties_)

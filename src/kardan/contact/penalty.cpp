@@ -43,6 +43,7 @@ PenaltyContact::PenaltyContact(const Model& model, State& state, Index index, Di
   };
   add(surfaces_[0], c.single ? surfaces_[0] : surfaces_[1], false);
   if (c.two_way && !c.single) add(surfaces_[1], surfaces_[0], true);
+  if (c.edges && c.single) edges_ = std::make_unique<EdgeContact>(model, surfaces_[0]);
   double count = 0;
   for (const Surface& surface : surfaces_)
     for (const Segment& s : surface.segments()) size_ += std::sqrt(s.area), ++count;
@@ -55,11 +56,13 @@ PenaltyContact::PenaltyContact(const Model& model, State& state, Index index, Di
     const TouchFrame at_birth = frame(state, true);
     const std::vector<double> masses(model.nodes.size(), 0.0);
     for (const auto& d : directions_) d->pass.evaluate(state, at_birth, law_, masses);
+    if (edges_) edges_->evaluate(state, true, law_, masses);
     born_ = 1;
     warn_of_penetrations(state, diagnostics);
   }
   for (std::size_t d = 0; d < directions_.size(); ++d)
     directions_[d]->pass.register_state(state.registry, fmt::format("contacts.{}.{}", index, d));
+  if (edges_) edges_->register_state(state.registry, fmt::format("contacts.{}", index));
   state.registry.add_value({fmt::format("contacts.{}.step", index), "time", "contacts.apply"}, law_.step());
   state.registry.add_value({fmt::format("contacts.{}.born", index), "1", "contacts.apply"}, born_);
 }
@@ -102,6 +105,7 @@ void PenaltyContact::evaluate(State& state, const std::vector<double>& inverse_m
   meter_.advance(state.nodes.v, state.clock.dt_previous);
   if (time < c.birth || time >= c.death) {
     for (const auto& d : directions_) add_energy(*d, d->pass.end(state), report);
+    if (edges_) report.tracked_energy += edges_->end(state).nodes;
     renew_ = true;
     return;
   }
@@ -113,8 +117,13 @@ void PenaltyContact::evaluate(State& state, const std::vector<double>& inverse_m
     ++report.rebuilds;
   }
   const TouchFrame now = frame(state, born_ == 0);
-  born_ = 1;
   for (const auto& d : directions_) add_energy(*d, d->pass.evaluate(state, now, law_, inverse_mass), report);
+  if (edges_) {
+    const PassEnergy energy = edges_->evaluate(state, born_ == 0, law_, inverse_mass);
+    report.tracked_energy += energy.nodes;
+    report.friction_energy += energy.friction;
+  }
+  born_ = 1;
 }
 
 void PenaltyContact::size_report(State& state) const {
@@ -150,6 +159,7 @@ void PenaltyContact::drop_deleted(const Alive& alive) {
     if (!c.single) surfaces_[1].expose(model_, c, c.reference, rules, alive);
   }
   for (const auto& d : directions_) d->pass.drop_dead(model_, alive);
+  if (edges_) edges_->drop_dead(alive);
   renew_ = true;
 }
 
@@ -174,7 +184,20 @@ void PenaltyContact::report(State& state) const {
       for (std::size_t k = 0; k < 4; ++k) report.moment -= cross(x[s.nodes[k]], t.force * t.weights[k]);
     });
   }
+  if (edges_) report_edges(report);
   state.energy.sliding += report.tracked_energy + report.reference_energy;
+}
+
+/// Edges are of one surface: no net force, but forces of nodes.
+void PenaltyContact::report_edges(ContactReport& report) const {
+  report.touching += static_cast<std::int64_t>(edges_->touches());
+  if (report.nodes[0].empty()) return;
+  edges_->for_each([&](const auto& a, const auto& wa, const auto& b, const auto& wb, const Vec3& force) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      report.nodal_force[0][surfaces_[0].place_of(a[k])] += force * wa[k];
+      report.nodal_force[0][surfaces_[0].place_of(b[k])] -= force * wb[k];
+    }
+  });
 }
 
 void PenaltyContact::warn_of_penetrations(const State& state, Diagnostics& diagnostics) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kardan/base/diagnostics.hpp"
+#include "kardan/contact/edge_contact.hpp"
 #include "kardan/contact/motion_meter.hpp"
 #include "kardan/contact/penalty_pass.hpp"
 #include "kardan/model/model.hpp"
@@ -29,6 +30,8 @@ class PenaltyContact {
 
   Index index() const { return contact_; }
   const std::vector<std::unique_ptr<Direction>>& directions() const { return directions_; }
+  /// Edges among themselves; null where the contact does not look at them.
+  const EdgeContact* edges() const { return edges_.get(); }
   /// Nodes of both surfaces, ascending.
   std::vector<NodeIndex> nodes() const;
 
@@ -46,11 +49,13 @@ class PenaltyContact {
   void add_energy(const Direction& direction, const PassEnergy& energy, ContactReport& report);
   void size_report(State& state) const;
   void report_nodes(ContactReport& report, const Direction& direction, const Touch& touch, const Segment& segment) const;
+  void report_edges(ContactReport& report) const;
   void warn_of_penetrations(const State& state, Diagnostics& diagnostics) const;
   const Model& model_;
   Index contact_;
   std::array<Surface, 2> surfaces_;   ///< tracked, reference
   std::vector<std::unique_ptr<Direction>> directions_;
+  std::unique_ptr<EdgeContact> edges_;
   PenaltyLaw law_;
   MotionMeter meter_;
   double size_ = 0;                   ///< mean size of segments

@@ -39,6 +39,18 @@ void Transducer::report(const std::vector<std::unique_ptr<PenaltyContact>>& cont
         for (std::size_t k = 0; k < 4 && on_segment; ++k)
           if (t.weights[k] != 0) add(s.nodes[k], t.force * -t.weights[k]);
       });
+  for (const auto& contact : contacts) {
+    if (!contact->edges()) continue;
+    contact->edges()->for_each([&](const auto& a, const auto& wa, const auto& b, const auto& wb, const Vec3& force) {
+      const auto holds_edge = [&](std::size_t side, const auto& edge) { return member_[side][edge[0]] && member_[side][edge[1]]; };
+      const bool first = holds_edge(0, a) && (!two_sided_ || holds_edge(1, b)), second = holds_edge(0, b) && (!two_sided_ || holds_edge(1, a));
+      report.touching += first || second;
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (first) add(a[k], force * wa[k]);
+        if (second) add(b[k], force * -wb[k]);
+      }
+    });
+  }
 }
 
 }  // namespace kardan
