@@ -87,6 +87,23 @@ TEST(Contacts, LiveFromBirthToDeath) {
   }
 }
 
+/// A rigid part that is held is as firm as any, however light it is and however many nodes meet it.
+TEST(Contacts, AHeldBodyIsFirmWhateverItWeighs) {
+  std::vector<Vec3> end;
+  for (const double density : {7800.0, 1e-3}) {
+    test::Meshes m = two_plates(8, 1e-5);
+    m.model.materials[0].law = RigidMaterial{.density = density, .youngs_modulus = 210e9, .poissons_ratio = 0.3, .cmo = 1, .con1 = 7, .con2 = 7};
+    m.throw_from(81, 162, {0, 0, -3});
+    m.surface_to_surface({1}, {0});
+    m.model.control.termination.end_time = 2e-4;
+    Diagnostics diagnostics;
+    Solver solver(m.model, {}, diagnostics);
+    solver.run();
+    end.push_back(solver.state().nodes.x[120]);
+  }
+  EXPECT_LT(norm(end[0] - end[1]), 1e-12);
+}
+
 /// What SPR and MPR ask for: forces of single nodes, whose sums are the contact's.
 TEST(Contacts, ReportForcesOfNodes) {
   test::Meshes m = two_plates(4, 1e-5);

@@ -13,11 +13,29 @@ namespace {
 /// Fewer touches than this are added up by one thread.
 constexpr std::size_t parallel_touches = 500;
 
+/// Which motions of a body forces cannot change: all translations are held, or one is prescribed (a tool); likewise rotations.
+struct Held {
+  bool translation = false, rotation = false;
+};
+
+Held held_motions(const Model& model, const State& state, std::size_t body) {
+  Held held;
+  const PartIndex lead = state.bodies.info[body].part;
+  if (lead != none && model.rigid_part(lead)) {
+    const auto& law = std::get<RigidMaterial>(model.materials[model.parts[lead].material].law);
+    held = {law.cmo > 0 && law.con1 == 7, law.cmo > 0 && law.con2 == 7};
+  }
+  for (const PrescribedMotion& m : model.prescribed_motions)
+    if (m.body_part != none && state.bodies.of_part[m.body_part] == static_cast<BodyIndex>(body))
+      (std::abs(m.dof) <= 4 ? held.translation : held.rotation) = true;
+  return held;
+}
+
 /// Upper bound of 1/m of a point of a body at arm r (principal axes) over all directions: 1/M + sum over the axes j of (|r|^2 - r_j^2)/I_j, the trace
-/// of the tensor that turns a force at the point into the acceleration of the point.
-double inverse_mass_of_point(const BodyInfo& body, const Vec3& r) {
-  double sum = body.mass > 0 ? 1 / body.mass : 0.0;
-  for (std::size_t j = 0; j < 3; ++j)
+/// of the tensor that turns a force at the point into the acceleration of the point; without the motions that are held.
+double inverse_mass_of_point(const BodyInfo& body, const Held& held, const Vec3& r) {
+  double sum = body.mass > 0 && !held.translation ? 1 / body.mass : 0.0;
+  for (std::size_t j = 0; j < 3 && !held.rotation; ++j)
     if (body.principal_inertia[j] > 0) sum += (dot(r, r) - r[j] * r[j]) / body.principal_inertia[j];
   return sum;
 }
@@ -53,6 +71,8 @@ void ContactSystem::find_masses(const State& state) {
   of_body_.resize(state.bodies.info.size());
   crowd_.assign(of_body_.size(), 1);
   touches_.assign(of_body_.size(), 0);
+  std::vector<Held> held;
+  for (std::size_t b = 0; b < of_body_.size(); ++b) held.push_back(held_motions(model_, state, b));
   std::vector<std::uint8_t> seen(nodes.x.size(), 0);
   for (const auto& contact : penalties_)
     for (const NodeIndex n : contact->nodes()) {
@@ -62,7 +82,7 @@ void ContactSystem::find_masses(const State& state) {
       const BodyInfo& body = state.bodies.info[b];
       of_body_[b].push_back(n);
       const Vec3 arm = transpose(to_matrix(body.initial_orientation)) * (model_.nodes.x[n] - body.initial_center);
-      inverse_mass_[n] = inverse_mass_of_point(body, arm);
+      inverse_mass_[n] = inverse_mass_of_point(body, held[b], arm);
     }
   single_ = inverse_mass_;
 }

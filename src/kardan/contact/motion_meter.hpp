@@ -4,6 +4,7 @@
 // Two nodes have approached each other by at most 2 (travel now - travel then), and since the last renewal by at most twice the largest way.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "kardan/base/index.hpp"
@@ -15,6 +16,8 @@ class MotionMeter {
  public:
   explicit MotionMeter(std::vector<NodeIndex> nodes) : nodes_(std::move(nodes)) {}
 
+  /// From now on these nodes count; renew() must follow.
+  void watch(std::vector<NodeIndex> nodes) { nodes_ = std::move(nodes); }
   /// The positions of now are those of the list of candidates.
   void renew(const std::vector<Vec3>& x, const std::vector<Vec3>& v);
   /// After a step of length dt with the velocities v.

@@ -160,6 +160,15 @@ void PenaltyContact::drop_deleted(const Alive& alive) {
   }
   for (const auto& d : directions_) d->pass.drop_dead(model_, alive);
   if (edges_) edges_->drop_dead(alive);
+  std::vector<NodeIndex> left;  // loose nodes fly far, and nobody looks for them
+  for (const Surface& surface : surfaces_) {
+    const std::vector<std::uint8_t> dead = dead_nodes(model_, surface, alive);
+    for (std::size_t p = 0; p < dead.size(); ++p)
+      if (!dead[p]) left.push_back(surface.nodes()[p].node);
+  }
+  std::sort(left.begin(), left.end());
+  left.erase(std::unique(left.begin(), left.end()), left.end());
+  meter_.watch(std::move(left));
   renew_ = true;
 }
 

@@ -26,6 +26,22 @@ std::vector<std::pair<Index, Index>> deep_pairs(const std::vector<Touch>& touche
 
 }  // namespace
 
+std::vector<std::uint8_t> dead_nodes(const Model& model, const Surface& surface, const Alive& alive) {
+  std::vector<std::uint8_t> dead(surface.nodes().size(), 0);
+  if (surface.segments().empty()) return dead;  // a side of nodes
+  for (std::size_t p = 0; p < dead.size(); ++p) {
+    const auto own = surface.segments_at(static_cast<Index>(p));
+    dead[p] = std::all_of(own.begin(), own.end(), [&](Index s) {
+      const Segment& segment = surface.segments()[s];
+      return segment.element != none && !alive(segment.kind, segment.element);
+    });
+  }
+  for (const Index beam : surface.beams())
+    for (const NodeIndex n : {model.beams.nodes[beam][0], model.beams.nodes[beam][1]})
+      if (const Index place = surface.place_of(n); place != none && alive(ElementKind::beam, beam)) dead[place] = 0;
+  return dead;
+}
+
 PenaltyPass::PenaltyPass(const Model& model, const Surface& nodes, const Surface& segments) : nodes_(&nodes), segments_(&segments) {
   const auto count = static_cast<Index>(nodes.nodes().size());
   for (Index begin = 0; begin < count; begin += chunk_nodes) {
@@ -46,18 +62,9 @@ void PenaltyPass::take_stiffnesses() {
 
 void PenaltyPass::drop_dead(const Model& model, const Alive& alive) {
   take_stiffnesses();
-  const auto gone = [&](const Segment& s) { return s.element != none && !alive(s.kind, s.element); };
   dead_segment_.clear();
-  for (const Segment& s : segments_->segments()) dead_segment_.push_back(gone(s));
-  dead_node_.assign(nodes_->nodes().size(), 0);
-  if (nodes_->segments().empty()) return;  // a side of nodes
-  for (std::size_t p = 0; p < dead_node_.size(); ++p) {
-    const auto own = nodes_->segments_at(static_cast<Index>(p));
-    dead_node_[p] = std::all_of(own.begin(), own.end(), [&](Index s) { return gone(nodes_->segments()[s]); });
-  }
-  for (const Index beam : nodes_->beams())
-    for (const NodeIndex n : {model.beams.nodes[beam][0], model.beams.nodes[beam][1]})
-      if (const Index place = nodes_->place_of(n); place != none && alive(ElementKind::beam, beam)) dead_node_[place] = 0;
+  for (const Segment& s : segments_->segments()) dead_segment_.push_back(s.element != none && !alive(s.kind, s.element));
+  dead_node_ = dead_nodes(model, *nodes_, alive);
 }
 
 void PenaltyPass::search(const State& state, double margin) {

@@ -23,6 +23,9 @@ struct PassEnergy {
   double friction = 0;             ///< dissipated by friction
 };
 
+/// By place: 1 where neither a segment nor a beam is left at a node. Nodes of a side of nodes stay.
+std::vector<std::uint8_t> dead_nodes(const Model& model, const Surface& surface, const Alive& alive);
+
 class PenaltyPass {
  public:
   /// The surfaces must outlive the pass.
@@ -49,7 +52,7 @@ class PenaltyPass {
   /// Those without a share included.
   std::size_t touches() const;
 
-  /// Segments of deleted elements drop out of the next search, and nodes that no segment and no beam is left at (those of a side of nodes stay).
+  /// Segments of deleted elements drop out of the next search, and dead_nodes().
   /// Call it too after Surface::expose().
   void drop_dead(const Model& model, const Alive& alive);
 
