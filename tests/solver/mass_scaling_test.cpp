@@ -80,6 +80,22 @@ TEST(MassScaling, PositiveStepIsThatOfAllElements) {
   EXPECT_LT(solver.state().added_mass.added, 0.0);
 }
 
+/// Steps of elements that only fly differ by rounding from DT2MS in every cycle: that is no mass.
+TEST(MassScaling, RoundingAddsNoMass) {
+  for (const double sign : {-1.0, 1.0}) {
+    Bricks b = flying_column(3, 0.7);
+    for (InitialVelocity& initial : b.model.initial_velocities) initial.velocity = {31, 17, -23};
+    b.model.control.time_step.dt2ms = sign * 1.37 * first_step(b);
+    Diagnostics diagnostics;
+    Solver solver(b.model, {}, diagnostics);
+    solver.step();
+    const double added = solver.state().added_mass.added, mass = solver.state().nodes.mass[0];
+    for (int i = 0; i < 50; ++i) solver.step();
+    EXPECT_EQ(solver.state().added_mass.added, added) << sign;
+    EXPECT_EQ(solver.state().nodes.mass[0], mass) << sign;
+  }
+}
+
 TEST(MassScaling, StopsAtEndmasAndActsOnceWithMs1st) {
   Bricks b = flying_column(1);
   b.model.control.time_step.dt2ms = -3 * first_step(b) / 0.9;
@@ -153,6 +169,39 @@ TEST(Erosion, SolidsTurnedInsideOutAreDeleted) {
     EXPECT_EQ(s.results.deleted_solids, 1);
     EXPECT_NEAR(s.nodes.v[4].z, -30, 1e-9);
     EXPECT_NEAR(s.nodes.x[4].z, h - 30 * s.clock.time, 1e-9);
+  }
+}
+
+/// A strip of shells is pulled together in its plane: ERODE = 10 deletes shells whose step falls below DTMIN, ERODE = 1 only solids.
+TEST(Erosion, ShellsWhoseStepFallsBelowDtminAreDeleted) {
+  for (const int erode : {10, 1}) {
+    test::HandmadeModel b;
+    Section section;
+    section.kind = ElementKind::shell;
+    section.shell.thickness = {0.01, 0.01, 0.01, 0.01};
+    b.part(section, b.material_of(ElasticMaterial{density, 1e8, 0.0, 0, 0}));
+    for (int i = 0; i <= 3; ++i) {
+      for (const double y : {0.0, h}) {
+        const NodeIndex n = b.node({h * i, y, 0});
+        b.model.nodes.constrained[static_cast<std::size_t>(n)] = i == 0 ? dof_all : dof_y | dof_z | dof_rotations;
+      }
+    }
+    for (int i = 0; i < 3; ++i) {
+      b.model.shells.id.push_back(i + 1);
+      b.model.shells.part.push_back(0);
+      b.model.shells.nodes.push_back({2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
+    }
+    PrescribedMotion motion;
+    motion.nodes = {6, 7};
+    motion.curve = b.curve({0, 1}, {-1, -1});
+    b.model.prescribed_motions.push_back(motion);
+    b.model.control.time_step.erode = erode;
+    b.model.control.termination.dt_min = 0.6;
+    b.model.control.termination.end_time = 0.16;
+    Diagnostics diagnostics;
+    Solver solver(b.model, {}, diagnostics);
+    EXPECT_EQ(solver.run(), erode == 10 ? StopReason::end_time : StopReason::min_step);
+    EXPECT_EQ(solver.state().results.deleted_shells > 0, erode == 10);
   }
 }
 

@@ -98,6 +98,10 @@ class NodeConstraints::Builder {
     std::vector<Row> sorted(t_.rows_.size());
     for (const Row& row : t_.rows_) sorted[count[row.node]++] = row;
     t_.rows_ = std::move(sorted);
+    t_.still_.assign(t_.nodes_.size(), 1);
+    for (const Row& row : t_.rows_) {
+      if (row.motion != none || row.frame != none) t_.still_[row.node] = 0;
+    }
     t_.motion_state_.assign(t_.rows_.size(), MotionState{});
     t_.meters_.assign(t_.reports_.size(), WorkMeter{});
   }
@@ -304,6 +308,10 @@ void NodeConstraints::impose(const Model& model, State& state) {
   }
   const double time = state.clock.time, kick = state.clock.kick();
   for (std::size_t h = 0; h < nodes_.size(); ++h) {
+    if (still_[h]) {
+      hold_still(state, h);
+      continue;
+    }
     const NodeIndex node = nodes_[h].node;
     HeldDirections held;
     for (std::size_t r = first_row_[h]; r < first_row_[h + 1]; ++r) {
@@ -323,6 +331,20 @@ void NodeConstraints::impose(const Model& model, State& state) {
         reaction.force += change * (state.nodes.mass[node] / kick);
       }
     }
+  }
+}
+
+void NodeConstraints::hold_still(State& state, std::size_t h) {
+  const double time = state.clock.time, kick = state.clock.kick();
+  const NodeIndex node = nodes_[h].node;
+  const double mass = state.nodes.mass[node] / kick, inertia = state.nodes.inertia[node] / kick;
+  for (std::size_t r = first_row_[h]; r < first_row_[h + 1]; ++r) {
+    const Row& row = rows_[r];
+    if (time < row.birth || time > row.death) continue;
+    double& v = (row.angular ? state.nodes.omega : state.nodes.v)[node][row.component];
+    ReactionReport& reaction = state.reactions[reports_[row.report].reaction];
+    (row.angular ? reaction.moment : reaction.force)[row.component] -= v * (row.angular ? inertia : mass);
+    v = 0;
   }
 }
 

@@ -76,11 +76,14 @@ class NodeConstraints {
   double angle_increment(const Model& model, const State& state, std::size_t row);
   double curve_increment(const Model& model, const State& state, MotionState& s, const PrescribedMotion& motion,
                          double travelled) const;
+  /// impose() of a node whose rows all hold it along global axes.
+  void hold_still(State& state, std::size_t held);
   void give_birth(const Model& model, const State& state, std::size_t row);
 
   std::vector<Held> nodes_;
   std::vector<std::size_t> first_row_;     ///< of each held node, and the end
   std::vector<Row> rows_;                  ///< by held node, in the order of the deck
+  std::vector<std::uint8_t> still_;        ///< by held node: all its rows hold it along global axes
   std::vector<MotionState> motion_state_;  ///< by row
   std::vector<Report> reports_;
   std::vector<WorkMeter> meters_;          ///< by report

@@ -16,17 +16,11 @@
 namespace kardan {
 
 std::array<Vec3, 4> nodal_areas(const std::array<Vec3, 4>& x) {
-  constexpr std::array<double, 4> xi{-1, 1, 1, -1}, eta{-1, -1, 1, 1};
-  Vec3 a, b, h;
-  for (std::size_t k = 0; k < 4; ++k) {
-    a += x[k] * (0.25 * xi[k]);
-    b += x[k] * (0.25 * eta[k]);
-    h += x[k] * (0.25 * xi[k] * eta[k]);
-  }
-  const Vec3 constant = cross(a, b), along_xi = cross(a, h) / 3.0, along_eta = cross(h, b) / 3.0;
-  std::array<Vec3, 4> areas;
-  for (std::size_t k = 0; k < 4; ++k) areas[k] = constant + along_xi * xi[k] + along_eta * eta[k];
-  return areas;
+  const Vec3 a = ((x[1] + x[2]) - (x[0] + x[3])) * 0.25, b = ((x[2] + x[3]) - (x[0] + x[1])) * 0.25;
+  const Vec3 h = ((x[0] + x[2]) - (x[1] + x[3])) * 0.25;
+  const Vec3 constant = cross(a, b), along_xi = cross(a, h) * (1.0 / 3.0), along_eta = cross(h, b) * (1.0 / 3.0);
+  const Vec3 sum = along_xi + along_eta, difference = along_xi - along_eta;
+  return {constant - sum, constant + difference, constant + sum, constant - difference};
 }
 
 PressureLoads::PressureLoads(const Model& model, State& state, Diagnostics& diagnostics) {
@@ -34,9 +28,8 @@ PressureLoads::PressureLoads(const Model& model, State& state, Diagnostics& diag
   std::vector<Index> place(model.nodes.size(), none);
   std::size_t floating = 0;
   for (const PressureLoad& load : model.pressure_loads) {
-    auto& places = segments_.emplace_back();
     for (const auto& segment : load.segments) {
-      auto& entry = places.emplace_back();
+      auto& entry = segments_.emplace_back();
       for (std::size_t k = 0; k < 4; ++k) {
         const NodeIndex n = segment[k];
         if (place[n] == none) {
@@ -48,9 +41,10 @@ PressureLoads::PressureLoads(const Model& model, State& state, Diagnostics& diag
                               "load segments of elements", "*LOAD_SEGMENT");
           }
         }
-        entry[k] = static_cast<std::size_t>(place[n]);
+        entry[k] = static_cast<std::uint32_t>(place[n]);
       }
     }
+    end_.push_back(segments_.size());
   }
   force_.resize(nodes_.size());
 }
@@ -58,19 +52,26 @@ PressureLoads::PressureLoads(const Model& model, State& state, Diagnostics& diag
 double PressureLoads::apply(const Model& model, State& state) {
   if (nodes_.empty()) return 0;
   std::fill(force_.begin(), force_.end(), Vec3{});
-  for (std::size_t l = 0; l < segments_.size(); ++l) {
+  std::size_t i = 0;
+  double factor = 0;  // of the curve; many a deck has one load for each segment, all with one curve
+  for (std::size_t l = 0; l < end_.size(); ++l) {
     const PressureLoad& load = model.pressure_loads[l];
-    if (state.clock.time < load.arrival) continue;
-    const double pressure = load.scale * load_curve_value(model, state.clock, load.curve, state.clock.time - load.arrival);
-    if (pressure == 0) continue;
-    for (const auto& segment : segments_[l]) {
+    const bool as_before = l > 0 && load.curve == model.pressure_loads[l - 1].curve && load.arrival == model.pressure_loads[l - 1].arrival;
+    if (!as_before) factor = load_curve_value(model, state.clock, load.curve, state.clock.time - load.arrival);
+    const double pressure = state.clock.time < load.arrival ? 0.0 : load.scale * factor;
+    if (pressure == 0) {
+      i = end_[l];
+      continue;
+    }
+    for (; i < end_[l]; ++i) {
+      const auto& segment = segments_[i];
       std::array<Vec3, 4> x;
       for (std::size_t k = 0; k < 4; ++k) x[k] = state.nodes.x[nodes_[segment[k]]];
       const std::array<Vec3, 4> area = nodal_areas(x);
       for (std::size_t k = 0; k < 4; ++k) force_[segment[k]] -= area[k] * pressure;
     }
   }
-  for (std::size_t i = 0; i < nodes_.size(); ++i) state.nodes.force[nodes_[i]] += force_[i];
+  for (std::size_t n = 0; n < nodes_.size(); ++n) state.nodes.force[nodes_[n]] += force_[n];
   return power(state);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <cstddef>
 #include <vector>
 
@@ -22,9 +23,10 @@ class PressureLoads {
   double power(const State& state) const;
 
  private:
-  std::vector<NodeIndex> nodes_;                                   ///< loaded nodes, each once
-  std::vector<Vec3> force_;                                        ///< by loaded node, at t_n
-  std::vector<std::vector<std::array<std::size_t, 4>>> segments_;  ///< by load: places in nodes_
+  std::vector<NodeIndex> nodes_;                        ///< loaded nodes, each once
+  std::vector<Vec3> force_;                             ///< by loaded node, at t_n
+  std::vector<std::array<std::uint32_t, 4>> segments_;  ///< of all loads: places in nodes_
+  std::vector<std::size_t> end_;                        ///< by load: of its segments
 };
 
 /// Integrals of N_a n dA over the bilinear surface through four points, a = 1 … 4: what a unit pressure along the normal of

@@ -213,7 +213,7 @@ void Solver::choose_time_step(const TimeStepRule& rule) {
   if (state_.clock.cycle > 0) return;
   first_dt_ = step_.dt;
   const TimeStepControl& control = model_.control.time_step;
-  if (control.erode % 10 == 1) elements_->erode_below(model_.control.termination.dt_min * first_dt_ / (control.scale > 0 ? control.scale : 0.9));
+  if (control.erode > 0) elements_->erode_below(model_.control.termination.dt_min * first_dt_ / (control.scale > 0 ? control.scale : 0.9));
 }
 
 void Solver::account() {

@@ -116,8 +116,9 @@ bool BeamForces::set_up_part(const Model& model, PartIndex p, Diagnostics& diagn
   if (s.elform == beam_elform::truss) properties.points = 1;
   if (kernels == &hughes_liu()) integration_points(s, properties);
   properties_[p] = std::make_shared<const BeamProperties>(properties);
+  const bool erodes = model.control.time_step.erode / 100 == 1;
   elements_.set_kernel(p, {kernel_for(*kernels, own), properties_[p], beam_history_size(properties.points, own.history()),
-                           (own.can_fail || properties.breaks) && properties.points > 0});
+                           ((own.can_fail || properties.breaks) && properties.points > 0) || erodes, 0.0, erodes});
   return true;
 }
 

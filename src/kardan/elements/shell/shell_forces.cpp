@@ -123,8 +123,9 @@ void ShellForces::set_kernel(const Model& model, PartIndex p, Group& group) {
   if (formulation.membrane) properties.offsets = false;
   const TileKernels& kernels = c0 ? c0_triangle() : (formulation.fully_integrated ? fully_integrated() : belytschko_tsay());
   group.properties[p] = std::make_shared<const ShellProperties>(properties);
-  group.elements.set_kernel(p, {kernel_for(kernels, laws_[p]), group.properties[p], shell_history_size(properties, laws_[p].history()), laws_[p].can_fail,
-                                laws_[p].deletion.step});
+  const bool erodes = model.control.time_step.erode / 10 % 10 == 1;
+  group.elements.set_kernel(p, {kernel_for(kernels, laws_[p]), group.properties[p], shell_history_size(properties, laws_[p].history()),
+                                laws_[p].can_fail || erodes, laws_[p].deletion.step, erodes});
 }
 
 void ShellForces::start(const Model& model, State& state, Group& group) {

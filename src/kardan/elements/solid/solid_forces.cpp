@@ -15,7 +15,10 @@ namespace kardan {
 namespace {
 
 /// ELFORM of *SECTION_SOLID.
-constexpr int one_point = 1, selective = 2, tetrahedra = 10, nodal_tetrahedra = 13, pentahedra = 15;
+constexpr int one_point = 1, selective = 2, slender = -1, slender_exact = -2, tetrahedra = 10, nodal_tetrahedra = 13, pentahedra = 15;
+
+/// -1 and -2 are 2 with a Jacobian that stiffens slender elements less, which LS-DYNA's makers have not published in full.
+constexpr bool selective_elform(int elform) { return elform == selective || elform == slender || elform == slender_exact; }
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -132,7 +135,7 @@ void SolidForces::start_histories(const Model& model, Shape& shape) {
 const SolidFormulation* SolidForces::formulation_of(SolidShape shape, int elform, int esort) {
   switch (shape) {
     case SolidShape::hexahedron:
-      return elform == one_point ? &one_point_hexahedron : elform == selective ? &full_hexahedron : nullptr;
+      return elform == one_point ? &one_point_hexahedron : selective_elform(elform) ? &full_hexahedron : nullptr;
     case SolidShape::tetrahedron:
       return elform == pentahedra && esort != 1 ? nullptr : &one_point_tetrahedron;
     case SolidShape::pentahedron:
@@ -161,7 +164,7 @@ bool SolidForces::set_up_part(const Model& model, SolidShape shape, PartIndex p,
   const int elform = section.solid.elform;
   const std::string name = "ELFORM = " + std::to_string(elform) + " (section " + std::to_string(section.id) + ")";
   static constexpr const char* shapes[] = {"hexahedra, or wedges that are not sorted (ESORT)", "tetrahedra", "pentahedra"};
-  if (elform != one_point && elform != selective && elform != tetrahedra && elform != nodal_tetrahedra &&
+  if (elform != one_point && !selective_elform(elform) && elform != tetrahedra && elform != nodal_tetrahedra &&
       elform != pentahedra) {
     refuse(name, "use ELFORM = 1 or 2, 10 or 13 for tetrahedra, 15 for pentahedra", "*SECTION_SOLID");
   } else if (!formulation_of(shape, elform, model.control.solid_esort)) {
@@ -178,6 +181,10 @@ bool SolidForces::set_up_part(const Model& model, SolidShape shape, PartIndex p,
                         "use QM <= 0.1, or IHQ = 4, 5 or 6", "*HOURGLASS");
   }
   if (!good) return false;
+  if (elform < 0 && shape == SolidShape::hexahedron) {
+    diagnostics.warning("part " + std::to_string(part.id) + ": " + name + " is computed as ELFORM = 2: elements of poor aspect ratio are too stiff in shear",
+                        "use ELFORM = 1 with IHQ = 6 where that matters", "*SECTION_SOLID");
+  }
   const Law& own = laws_[at(p)];
   Shape& target = shapes_[static_cast<std::size_t>(shape)];
   const SolidFormulation* formulation = target.formulation[at(p)] = formulation_of(shape, elform, model.control.solid_esort);

@@ -77,7 +77,7 @@ class TileElements {
       for (std::size_t i = 0; i < tile.elements; ++i) {
         const std::size_t place = tile.first_block * block_lanes + i;
         const double ratio = step / steps_[place];
-        if (!(ratio > 0) || (exactly ? ratio == 1 : !(ratio > 1))) continue;  // 0: deleted, its step is infinite
+        if (!(ratio > 0) || !((exactly ? std::abs(ratio - 1) : ratio - 1) > scaling_tolerance)) continue;  // 0: deleted, its step is infinite
         const double factor = mass_factor_[place] * ratio * ratio;
         add(mesh_.element[place], factor - mass_factor_[place]);
         mass_factor_[place] = factor;
@@ -149,6 +149,7 @@ class TileElements {
   void add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const;
 
  private:
+  static constexpr double scaling_tolerance = 1e-12;  ///< of the step: what is less is rounding, and would add up over the cycles
   static constexpr std::size_t npos = static_cast<std::size_t>(-1);
 
   /// What a tile reports of a cycle.

@@ -60,13 +60,23 @@ void put_shells(std::string& text, const Folder& f) {
   }
 }
 
+void put_beams(std::string& text, const Folder& f) {
+  const auto& ids = integers(f, "ids");
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    put(text, "\n beam/truss # ={:8d}      part ID  ={:8d}\n", ids[i], integers(f, "mat")[i]);
+    text += " resultants      axial    shear-s    shear-t    moment-s   moment-t   torsion\n           ";
+    for (const char* name : {"axial", "shear_s", "shear_t", "moment_s", "moment_t", "torsion"}) put(text, "{:11.3E}", f[name][i]);
+    text += '\n';
+  }
+}
+
 }  // namespace
 
 std::string elout_text(const Snapshot& s) {
   std::string text;
   for (const Folder& f : s.folders) {
     put_head(text, s);
-    f.path == "/elout/solid" ? put_solids(text, f) : put_shells(text, f);
+    (f.path == "/elout/solid" ? put_solids : f.path == "/elout/beam" ? put_beams : put_shells)(text, f);
   }
   return text;
 }

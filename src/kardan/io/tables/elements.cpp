@@ -1,4 +1,4 @@
-// ELOUT: stresses of the elements of *DATABASE_HISTORY_SHELL and _SOLID.
+// ELOUT: stresses of the elements of *DATABASE_HISTORY_SHELL and _SOLID, resultants of those of _BEAM.
 #include <array>
 #include <cmath>
 
@@ -78,10 +78,35 @@ Folder solid_folder(const Model& model, const State& state) {
   return f;
 }
 
+Folder beam_folder(const Model& model, const State& state) {
+  const BeamResults& r = state.results.beam;
+  Folder f;
+  f.path = "/elout/beam";
+  IntegerColumn ids{"ids", {}}, parts{"mat", {}};
+  std::vector<std::size_t> chosen;
+  for (const Index i : model.output.history_beams) {
+    const auto beam = static_cast<std::size_t>(i);
+    const bool alive = r.alive.empty() || r.alive[beam] != 0;
+    if (beam >= r.axial.size() || !alive || model.rigid_part(model.beams.part[beam])) continue;
+    chosen.push_back(beam);
+    ids.values.push_back(model.beams.id[beam]);
+    parts.values.push_back(model.parts[static_cast<std::size_t>(model.beams.part[beam])].id);
+  }
+  f.integers = {{"cycle", {state.clock.cycle}}, ids, parts};
+  const std::size_t n = chosen.size();
+  f.add_scalars("axial", n, [&](std::size_t i) { return r.axial[chosen[i]]; });
+  f.add_scalars("shear_s", n, [&](std::size_t i) { return r.shear[chosen[i]][0]; });
+  f.add_scalars("shear_t", n, [&](std::size_t i) { return r.shear[chosen[i]][1]; });
+  f.add_scalars("moment_s", n, [&](std::size_t i) { return r.bending[chosen[i]][0]; });
+  f.add_scalars("moment_t", n, [&](std::size_t i) { return r.bending[chosen[i]][1]; });
+  f.add_scalars("torsion", n, [&](std::size_t i) { return r.torsion[chosen[i]]; });
+  return f;
+}
+
 }  // namespace
 
 std::vector<Folder> elout_folders(const Model& model, const State& state) {
-  return {solid_folder(model, state), shell_folder(model, state)};
+  return {solid_folder(model, state), beam_folder(model, state), shell_folder(model, state)};
 }
 
 }  // namespace kardan

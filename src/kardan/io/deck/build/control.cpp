@@ -35,7 +35,8 @@ void read_time_step(Builder& b, Block& block) {
   t.limit = b.optional_curve(card, "lctm");
   t.erode = static_cast<int>(card.integer("erode"));
   t.scale_mass_once = card.integer("ms1st") == 1;
-  if (t.erode >= 10) card.warning("erode", "only solids are deleted where their step falls below DTMIN, not shells and beams");
+  if (t.erode < 0 || t.erode > 111 || t.erode % 10 > 1 || t.erode / 10 % 10 > 1)
+    card.error("erode", "found " + card.text("erode") + ", expected digits 0 and 1 for beams, shells, solids (1, 10, 11, 100 … 111)", "correct it");
   b.ignored(card, "tslimt", "no element's stiffness is reduced to keep the step");
   b.refuse_nonzero(more, "imscl", "selective mass scaling", "leave it at 0");
   b.refuse_nonzero(more, "dt2mslc", "a curve for DT2MS", "give a constant");
@@ -212,6 +213,7 @@ void read_extent(Builder& b, Block& block) {
   for (const char* field : {"sigflg", "epsflg", "rltflg", "engflg"}) b.ignored(card, field, "d3plot holds everything");
   const Card more = block.next_optional("card1"), last = block.next_optional("card2");
   b.ignored(more, "ieverp", "a file holds as many states as fit");
+  b.ignored(more, "beamip", "the stresses at the points of beams are not written, but their resultants");
   b.ignored(more, "dcomp", "all words are written");
   for (const char* field : {"shge", "stssz"}) b.ignored(more, field, "hourglass energy and time step of elements are not written");
   for (const char* field : {"hydro", "msscl", "therm", "nintsld"}) b.ignored(last, field, "not written");
