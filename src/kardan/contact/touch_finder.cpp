@@ -112,9 +112,12 @@ void TouchFinder::find_minima() {
 }
 
 /// On which side of segment `to` a node is that was on a side of its neighbour: the neighbours' normals agree if they go along the shared side in
-/// opposite senses. 0 if they share no side, or the memory lies in the neighbour's plane.
+/// opposite senses. 0 if they share no side, if the memory lies in the neighbour's plane, or if the node was over its border: a node that meets the
+/// edge of two walls from outside is on no particular side of either.
 int TouchFinder::side_across(const TouchFrame& frame, const Touch& memory, const Segment& to) const {
   const Segment& from = segments_->segments()[memory.segment];
+  for (std::size_t k = 0; k < corners(from); ++k)
+    if (memory.weights[k] == 0) return 0;
   const std::vector<Vec3>& x = *frame.x;
   const auto& n = from.nodes;
   const Vec3 normal = cross(x[n[2]] - x[n[0]], x[n[3]] - x[n[1]]);
@@ -205,9 +208,15 @@ void TouchFinder::decide(const TouchFrame& frame, NodeIndex node, Place& p) cons
   if (segment(p).one_sided) decide_one_sided(frame, node, p);
   else decide_two_sided(frame, node, p);
   if (!p.touches) return;
-  if (p.memory) p.offset = std::min(p.memory->offset, p.penetration);
-  else if (frame.birth) p.offset = p.penetration;
-  else p.offset = std::max(0.0, p.penetration - explained_steps * norm(velocity(frame, node, p)) * frame.dt);
+  // What neither the depth before nor the motion since explains causes no force, so that no touch begins with energy.
+  const double explained = explained_steps * norm(velocity(frame, node, p)) * frame.dt;
+  if (!p.memory) {
+    p.offset = frame.birth ? p.penetration : std::max(0.0, p.penetration - explained);
+  } else {
+    p.offset = std::min(p.memory->offset, p.penetration);
+    const double depth = std::max(0.0, p.memory->penetration - p.memory->offset);
+    if (p.memory->segment != p.segment) p.offset = std::max(p.offset, p.penetration - depth - explained);
+  }
 }
 
 /// Of a connected one-sided surface only the nearest place pushes.
