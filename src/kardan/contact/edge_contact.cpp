@@ -191,7 +191,8 @@ EdgeTouch EdgeContact::decide(const State& state, const Place& p, bool birth) co
   t.direction = p.distance > same * margin_ ? p.u * ((beyond ? -1 : 1) / p.distance) : normalized(before);
   t.penetration = beyond ? reach + p.distance : reach - p.distance;
   t.share = t.penetration > 0 ? 1 : 0;
-  t.offset = memory ? std::min(memory->touch.offset, t.penetration) : std::max(0.0, t.penetration - explained_steps * norm(relative) * dt);
+  const double known = memory ? std::max(0.0, memory->touch.penetration - memory->touch.offset) : 0.0;
+  t.offset = std::max(memory ? std::min(memory->touch.offset, t.penetration) : 0.0, t.penetration - known - explained_steps * norm(relative) * dt);
   if (memory) {
     t.friction = memory->touch.friction;
     t.largest = memory->touch.largest;
@@ -210,7 +211,7 @@ TouchMotion EdgeContact::motion(const State& state, const EdgeTouch& e, const st
   for (std::size_t k = 0; k < 4; ++k) {
     const double inverse = inverse_mass[node[k]];
     m.velocity += state.nodes.v[node[k]] * weight[k];
-    m.inverse_mass += weight[k] * weight[k] * inverse;
+    m.inverse_mass += std::abs(weight[k]) * inverse;
     largest = std::max(largest, inverse);
   }
   m.lightest = m.reduced = largest > 0 ? 1 / largest : 0.0;

@@ -124,7 +124,7 @@ void PenaltyPass::push(const TouchFrame& frame, const PenaltyLaw& law, const std
     for (std::size_t k = 0; k < 4; ++k) {
       const double corner = inverse_mass[s.nodes[k]], w = t.weights[k];
       motion.velocity -= v[s.nodes[k]] * w;
-      motion.inverse_mass += w * w * corner;
+      motion.inverse_mass += w * corner;
       motion.stiffness += w * corner_stiffness_[t.segment][k];
       largest = std::max(largest, corner);
       masses += corner > 0 ? 0.25 / corner : 0.0;

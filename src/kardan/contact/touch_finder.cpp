@@ -208,15 +208,10 @@ void TouchFinder::decide(const TouchFrame& frame, NodeIndex node, Place& p) cons
   if (segment(p).one_sided) decide_one_sided(frame, node, p);
   else decide_two_sided(frame, node, p);
   if (!p.touches) return;
-  // What neither the depth before nor the motion since explains causes no force, so that no touch begins with energy.
-  const double explained = explained_steps * norm(velocity(frame, node, p)) * frame.dt;
-  if (!p.memory) {
-    p.offset = frame.birth ? p.penetration : std::max(0.0, p.penetration - explained);
-  } else {
-    p.offset = std::min(p.memory->offset, p.penetration);
-    const double depth = std::max(0.0, p.memory->penetration - p.memory->offset);
-    if (p.memory->segment != p.segment) p.offset = std::max(p.offset, p.penetration - depth - explained);
-  }
+  // Without a jump the depth below the offset grows no faster than the relative motion says.
+  const double before = p.memory ? std::max(0.0, p.memory->penetration - p.memory->offset) : 0.0;
+  const double explained = frame.birth ? 0.0 : before + explained_steps * norm(velocity(frame, node, p)) * frame.dt;
+  p.offset = std::max(p.memory ? std::min(p.memory->offset, p.penetration) : 0.0, p.penetration - explained);
 }
 
 /// Of a connected one-sided surface only the nearest place pushes.
