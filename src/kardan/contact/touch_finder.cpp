@@ -168,7 +168,9 @@ void TouchFinder::decide_two_sided(const TouchFrame& frame, NodeIndex node, Plac
   const bool flat = is_inside(p.closest.feature, s);
   bool beyond = false;
   if (p.memory) {
-    beyond = flat && p.expected != 0 ? p.side * p.expected < 0 : dot(u, p.memory->direction) < (flat ? 0.0 : -0.2 * p.distance);
+    const double along = dot(u, p.memory->direction);
+    const bool across = std::abs(along) < 0.5 * p.distance;  // so steep a border that the direction tells nothing
+    beyond = flat && across && p.expected != 0 ? p.side * p.expected < 0 : along < (flat ? 0.0 : -0.2 * p.distance);
   } else if (flat && frame.dt > 0) {
     const Vec3 before = u - velocity(frame, node, p) * frame.dt;
     beyond = p.side * dot(before, p.closest.normal) < 0;

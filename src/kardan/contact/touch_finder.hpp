@@ -9,12 +9,11 @@
 //   t - d, along u     two-sided, from the side the node came from; one-sided, outside
 //   t + d, along -u    two-sided, beyond the mid-surface; one-sided, inside
 // Which side a node came from, it remembers as the direction of the last cycle: of the same segment, of those that share the closest point, or of a
-// neighbour that it has just left; across a side that two segments share, the side of one is continued by that of the other, whatever the
-// angle. So no node passes a shared border, a corner or a junction; a free edge lets it go.
+// neighbour that it has just left; across a steep border that two segments share, the side of one is continued by that of the other. So no node passes a shared border, a corner or a junction; a free edge lets it go.
 //
 // A node is taken to be inside a one-sided surface only if its last motion can have taken it there, or if it was in touch there or next to it; of a
 // connected surface the nearest place counts. What a new touch penetrates beyond what the motion explains becomes its offset, which gives no force and
-// can only shrink: no touch makes energy out of nothing.
+// can only shrink, unless the geometry jumps: no touch makes energy out of nothing.
 #pragma once
 
 #include <cstdint>
