@@ -10,7 +10,7 @@
 // Always k <= alpha m_eff/dt^2, 1/m_eff = 1/m_s + sum w_i/m_i. A point of mass m_s on the point sum w_i x_i of masses m_i moves relative to it, under a force f along n,
 // by f (1/m_s + sum w_i^2/m_i), no more than f/m_eff, so that the spring alone has omega^2 <= k/m_eff and central differences are stable for
 // omega dt < 2, alpha < 4. In a pile of shells with contact in both directions a node takes part in about four touches, two of its own and two as a corner:
-// alpha = 0.4 leaves room for them and for the elements. It makes the bound idle for the usual k0 of shells up to some six times as long as thick.
+// alpha = 0.4 leaves room for them and for the elements. The bound is idle for the usual k0 of shells up to four or five times as long as thick.
 // dt follows the run's step only upwards and in steps of 5 %, so that k, and with it the stored energy, does not change every cycle.
 //
 // Damping c = 2 VDC sqrt(k m_eff), at most beta m_eff/dt: the velocity is half a step old, and central differences with it are stable for
