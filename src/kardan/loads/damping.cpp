@@ -117,6 +117,7 @@ void Damping::damp_nodes(State& state, Group& group, const Vec3& translation, co
   const double kick = state.clock.kick();
   for (DampedNode& d : group.nodes) {
     const NodeIndex n = d.node;
+    if (nodes.mass[n] <= 0) continue;  // tied to a segment, which has its mass
     d.force = damping_force(translation * d.share, (d.v_before + nodes.v[n]) * (0.5 * nodes.mass[n]), kick);
     nodes.v[n] += d.force * (kick / nodes.mass[n]);
     if (nodes.inertia[n] <= 0) continue;
@@ -148,6 +149,7 @@ void Damping::damp_relative(State& state, Group& group, double rate) const {
   lead.force = lead.moment = {};
   for (DampedNode& d : group.nodes) {
     const NodeIndex n = d.node;
+    if (nodes.mass[n] <= 0) continue;
     const Vec3 arm = nodes.x[n] - motion.center;
     const Vec3 relative = (d.v_before + nodes.v[n]) * 0.5 - lead_velocity - cross(motion.angular_velocity, arm);
     d.force = damping_force(Vec3{1, 1, 1} * (rate * d.share), relative * nodes.mass[n], kick);

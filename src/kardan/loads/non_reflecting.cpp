@@ -118,6 +118,7 @@ double NonReflecting::apply(State& state) {
   double power = 0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const NodeIndex n = nodes_[i];
+    if (state.nodes.mass[n] <= 0) continue;  // tied to a segment, which has its mass
     const double half = 0.5 * kick / state.nodes.mass[n];
     const Vec3 middle = (v_before_[i] + state.nodes.v[n]) * 0.5;
     force_[i] = -(inverse(Mat3::identity() + damping_[i] * half) * (damping_[i] * middle));

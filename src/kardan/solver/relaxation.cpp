@@ -11,6 +11,7 @@
 #include "kardan/base/rotation.hpp"
 #include "kardan/contact/contact_system.hpp"
 #include "kardan/contact/rigid_wall.hpp"
+#include "kardan/contact/tied.hpp"
 #include "kardan/elements/element_system.hpp"
 #include "kardan/loads/load_system.hpp"
 #include "kardan/solver/node_mover.hpp"
@@ -135,6 +136,7 @@ void Solver::relax() {
     looked_at_ = false;
     loads_->apply(model_, state_);
     walls_->apply(model_, state_, nodes_->fastest());
+    ties_->apply(model_, state_);
     elements_->internal_forces(model_, state_);
     choose_time_step(*relaxation_rule_);
     contact();
@@ -144,6 +146,7 @@ void Solver::relax() {
     if (watch.at_rest() || state_.clock.time >= control.end_time) break;  // not drifted: stresses and positions agree
     rigid_->drift(model_, state_);
     nodes_->drift(state_);
+    ties_->drift(state_);
     hand.advance(state_.clock, control.end_time);
   }
   spdlog::info("dynamic relaxation: {} after {} cycles, kinetic energy {:.3g} of its largest", watch.at_rest() ? "at rest" : "ended",
@@ -155,6 +158,7 @@ void Solver::relax() {
   initial.restore(state_);
   loads_->restart(model_, state_);
   walls_->restart();
+  ties_->restart();
 }
 
 }  // namespace kardan

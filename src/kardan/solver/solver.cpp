@@ -9,6 +9,7 @@
 
 #include "kardan/contact/contact_system.hpp"
 #include "kardan/contact/rigid_wall.hpp"
+#include "kardan/contact/tied.hpp"
 #include "kardan/elements/element_system.hpp"
 #include "kardan/loads/load_system.hpp"
 #include "kardan/solver/node_mover.hpp"
@@ -76,13 +77,16 @@ void Solver::set_up(const SolverOptions& options, Diagnostics& diagnostics) {
   if (!model_.joints.empty()) diagnostics.notice(choice.reason);
   rigid_ = std::make_unique<RigidSystem>(model_, state_, choice.holding, diagnostics);
   if (!diagnostics.ok()) return;
+  ties_ = std::make_unique<TiedContacts>(model_, state_, diagnostics);
   LoadSystem::set_initial_velocities(model_, state_, diagnostics);
   loads_ = std::make_unique<LoadSystem>(model_, state_, diagnostics);  // takes out velocities against supports
   contacts_ = std::make_unique<ContactSystem>(model_, state_, diagnostics);
   if (!diagnostics.ok()) return;
+  ties_->take_masses(state_);
   rigid_->set_initial_velocities(model_, state_, diagnostics);
   walls_ = std::make_unique<RigidWalls>(model_, state_, diagnostics);
   nodes_ = std::make_unique<NodeMover>(model_, state_);
+  ties_->follow(state_);
 
   for (std::size_t i = 0; i < state_.nodes.x.size(); ++i) {
     const bool attached = state_.nodes.body[i] != none;
@@ -136,9 +140,10 @@ bool Solver::step() {
     clear_forces();
     loads_->apply(model_, state_);
     walls_->apply(model_, state_, nodes_->fastest());
+    ties_->apply(model_, state_);
     timers_.lap(Phase::loads);
     elements_->internal_forces(model_, state_);
-    nodes_->take_masses(state_, elements_->scale_masses(model_, state_));
+    take_masses();
     timers_.lap(Phase::elements);
     choose_time_step(*rule_);
     stop_ = reason_to_stop();
@@ -147,7 +152,10 @@ bool Solver::step() {
     contact();
     timers_.lap(Phase::contact);
     kick();
-    if (looked_at_) nodes_->settle(state_);
+    if (looked_at_) {
+      nodes_->settle(state_);
+      ties_->settle(state_);
+    }
     timers_.lap(Phase::nodes);
     account();
     timers_.lap(Phase::ledger);
@@ -164,6 +172,7 @@ bool Solver::step() {
   rigid_->drift(model_, state_);
   timers_.lap(Phase::rigid);
   nodes_->drift(state_);
+  ties_->drift(state_);
   clock_hand_.advance(state_.clock, end_time_);
   timers_.lap(Phase::nodes);
   return true;
@@ -182,6 +191,7 @@ void Solver::kick() {
   const double fastest = nodes_->fastest();
   walls_->before_kick(state_, fastest);
   nodes_->kick(model_, state_, *elements_, looked_at_);
+  ties_->transfer(state_);
   timers_.lap(Phase::nodes);
   rigid_->gather_forces(state_);
   loads_->damp(model_, state_);
@@ -190,6 +200,15 @@ void Solver::kick() {
   timers_.lap(Phase::rigid);
   walls_->hold(model_, state_, speed_bound(model_, fastest, nodes_->fastest()));
   loads_->constrain_velocities(model_, state_);
+  ties_->follow(state_);
+}
+
+/// Mass scaling: also of nodes that are tied to segments, whose mass the segments carry.
+void Solver::take_masses() {
+  const std::vector<NodeIndex>& changed = elements_->scale_masses(model_, state_);
+  if (changed.empty()) return;
+  nodes_->take_masses(state_, changed);
+  nodes_->take_masses(state_, ties_->pass_on_masses(state_));
 }
 
 void Solver::clear_forces() {
@@ -223,6 +242,7 @@ void Solver::account() {
   if (looked_at_) energy.begin(model_.parts.size());
   loads_->account(model_, state_);
   walls_->close_kick(state_);
+  ties_->account(state_, looked_at_);
   if (!looked_at_) return;
   elements_->account(model_, state_);
   rigid_->account(model_, state_);

@@ -28,6 +28,7 @@ class ElementSystem;
 class RigidWalls;
 class LoadSystem;
 class NodeMover;
+class TiedContacts;
 
 /// What the command line can override.
 struct SolverOptions {
@@ -79,6 +80,7 @@ class Solver {
   void set_up(const SolverOptions& options, Diagnostics& diagnostics);
   void register_state();
   void clear_forces();
+  void take_masses();
   void choose_time_step(const TimeStepRule& rule);
   void contact();
   void kick();
@@ -95,6 +97,7 @@ class Solver {
   std::unique_ptr<RigidSystem> rigid_;
   std::unique_ptr<ContactSystem> contacts_;
   std::unique_ptr<RigidWalls> walls_;
+  std::unique_ptr<TiedContacts> ties_;
   std::unique_ptr<NodeMover> nodes_;
   std::unique_ptr<TimeStepRule> rule_, relaxation_rule_;
   ClockHand clock_hand_;

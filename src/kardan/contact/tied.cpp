@@ -1,0 +1,73 @@
+#include "kardan/contact/tied.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "kardan/contact/tie_search.hpp"
+
+namespace kardan {
+
+namespace {
+
+bool by_springs(const Contact& contact) {
+  return contact.law == ContactLaw::tiebreak || contact.tie.holding == Tie::Holding::offset || contact.tie.holding == Tie::Holding::beam_offset;
+}
+
+bool tied(const Contact& contact) { return contact.law == ContactLaw::tied || contact.law == ContactLaw::tiebreak; }
+
+std::vector<TiedPoint> points_of(const Model& model, const State& state, bool springs, Diagnostics& diagnostics) {
+  std::vector<TiedPoint> points;
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    if (!tied(model.contacts[c]) || by_springs(model.contacts[c]) != springs) continue;
+    const std::vector<TiedPoint> found = find_tied_points(model, state, c, diagnostics);
+    points.insert(points.end(), found.begin(), found.end());
+  }
+  return points;
+}
+
+/// What of a tie cannot be honoured.
+void check(const Contact& contact, Diagnostics& diagnostics) {
+  const std::string name = "contact " + std::to_string(contact.id);
+  if (contact.birth > 0) diagnostics.error(name + ": a tie that is born later is not available", "leave BT at 0", contact.keyword);
+  if (!by_springs(contact) && contact.death < 1e20)
+    diagnostics.error(name + ": a tie without a spring cannot end", "leave DT empty, or take the keyword with _OFFSET", contact.keyword);
+  if (contact.law != ContactLaw::tiebreak) return;
+  if (contact.tie.normal_limit <= 0 && contact.tie.shear_limit <= 0)
+    diagnostics.warning(name + " has no limits: it never breaks", "give NFLF and SFLF, or NFLS and SFLS", contact.keyword);
+  if (contact.tie.option != 0 && contact.tracked.kind == ContactSide::Kind::nodes)
+    diagnostics.error(name + ": its limits are stresses, but nodes of a set have no area", "name parts or segments as SURFA", contact.keyword);
+  if (contact.tie.option == 6 && contact.tie.critical_distance <= 0)
+    diagnostics.error(name + ": OPTION = 6 needs the critical distance", "give PARAM > 0, or OPTION = 2", contact.keyword);
+}
+
+}  // namespace
+
+TiedContacts::TiedContacts(const Model& model, State& state, Diagnostics& diagnostics)
+    : kinematic_(model, state, points_of(model, state, false, diagnostics), diagnostics),
+      springs_(model, state, points_of(model, state, true, diagnostics)) {
+  state.contacts.resize(model.contacts.size());
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    if (!tied(model.contacts[c])) continue;
+    contacts_.push_back(c);
+    check(model.contacts[c], diagnostics);
+  }
+}
+
+void TiedContacts::account(State& state, bool looked_at) {
+  if (looked_at) {
+    for (const std::size_t c : contacts_) {
+      state.contacts[c].force = state.contacts[c].moment = {};
+      state.contacts[c].touching = 0;
+    }
+    kinematic_.account(state);
+    kinematic_.report(state);
+  }
+  springs_.account(state, looked_at);
+}
+
+void TiedContacts::drift(State& state) {
+  kinematic_.place(state);
+  springs_.turn(state);
+}
+
+}  // namespace kardan

@@ -1,0 +1,50 @@
+// Tied contacts and tiebreaks: *CONTACT_TIED_…, *CONTACT_SPOTWELD…, *CONTACT_…TIEBREAK. Nodes that begin on a segment stay there: without a spring
+// between (kinematic_ties.hpp) or held by springs (tie_springs.hpp), as the keyword's suffix says.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "kardan/base/diagnostics.hpp"
+#include "kardan/contact/kinematic_ties.hpp"
+#include "kardan/contact/tie_springs.hpp"
+#include "kardan/model/model.hpp"
+#include "kardan/state/state.hpp"
+
+namespace kardan {
+
+class TiedContacts {
+ public:
+  /// Finds the tied nodes; marks nodes of bodies as needed; makes room in state.contacts. Bodies and lumped masses must stand in the state.
+  TiedContacts(const Model& model, State& state, Diagnostics& diagnostics);
+
+  /// After the initial velocities: masses and momenta of nodes without springs go to their segments.
+  void take_masses(State& state) { kinematic_.take_masses(state); }
+  /// After mass scaling, likewise. @return nodes whose mass has changed
+  const std::vector<NodeIndex>& pass_on_masses(State& state) { return kinematic_.pass_on_masses(state); }
+
+  /// Forces of springs at t_n.
+  void apply(const Model& model, State& state) { springs_.apply(model, state); }
+  /// Right after the kick of the free nodes.
+  void transfer(State& state) { kinematic_.transfer(state); }
+  /// After the velocities of the free nodes were constrained.
+  void follow(State& state) { kinematic_.follow(state); }
+  /// In a cycle that is looked at: velocities and accelerations at t_n.
+  void settle(State& state) const { kinematic_.settle(state); }
+  /// Every cycle; if `looked_at`, energies into state.energy and reports into state.contacts.
+  void account(State& state, bool looked_at);
+  /// After the drift of all other nodes.
+  void drift(State& state);
+  void restart() { springs_.restart(); }
+
+  /// By node of the model: 1 where a tie of contact `contact` still holds the node; empty if it has none that breaks.
+  const std::vector<std::uint8_t>& held(std::size_t contact) const { return springs_.held(contact); }
+
+ private:
+  std::vector<std::size_t> contacts_;  ///< tied ones, into Model::contacts
+  KinematicTies kinematic_;
+  TieSprings springs_;
+};
+
+}  // namespace kardan
