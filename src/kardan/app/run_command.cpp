@@ -12,6 +12,7 @@
 #include "kardan/app/result_files.hpp"
 #include "kardan/app/summary.hpp"
 #include "kardan/app/version.hpp"
+#include "kardan/contact/tie_search.hpp"
 #include "kardan/io/deck/load.hpp"
 #include "kardan/io/report/model_report.hpp"
 #include "kardan/solver/solver.hpp"
@@ -32,6 +33,7 @@ Model load(const RunRequest& request, Diagnostics& diagnostics) {
   options.build.end_time = request.end_time.value_or(0.0);
   Model model = deck::load_model(request.deck, options, diagnostics);
   if (request.end_time) model.control.termination.end_time = *request.end_time;
+  if (diagnostics.ok()) move_tied_nodes(model, diagnostics);
   return model;
 }
 

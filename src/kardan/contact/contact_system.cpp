@@ -42,12 +42,14 @@ double inverse_mass_of_point(const BodyInfo& body, const Held& held, const Vec3&
 
 }  // namespace
 
-ContactSystem::ContactSystem(const Model& model, State& state, Diagnostics& diagnostics) : model_(model) {
+ContactSystem::ContactSystem(const Model& model, State& state, const TiedContacts& ties, Diagnostics& diagnostics) : model_(model) {
   state.contacts.assign(model.contacts.size(), ContactReport{});
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const auto index = static_cast<Index>(c);
-    if (model.contacts[c].law == ContactLaw::penalty) penalties_.push_back(std::make_unique<PenaltyContact>(model, state, index, diagnostics));
-    if (model.contacts[c].law == ContactLaw::transducer) transducers_.emplace_back(model, state, index, diagnostics);
+    const ContactLaw law = model.contacts[c].law;
+    if (law == ContactLaw::penalty || law == ContactLaw::tiebreak)
+      penalties_.push_back(std::make_unique<PenaltyContact>(model, state, index, ties.hold(c), diagnostics));
+    if (law == ContactLaw::transducer) transducers_.emplace_back(model, state, index, diagnostics);
   }
   if (penalties_.empty()) return;
   find_masses(state);

@@ -6,6 +6,7 @@
 
 #include "kardan/base/diagnostics.hpp"
 #include "kardan/contact/penalty.hpp"
+#include "kardan/contact/tied.hpp"
 #include "kardan/contact/transducer.hpp"
 #include "kardan/model/model.hpp"
 #include "kardan/state/state.hpp"
@@ -16,7 +17,8 @@ class ContactSystem {
  public:
   /// Sizes state.contacts, marks the nodes that contacts look at in state.nodes.needed and registers what contacts remember. Masses and bodies
   /// must stand in the state, positions at t = 0. Warns of initial penetrations and of sides without segments.
-  ContactSystem(const Model& model, State& state, Diagnostics& diagnostics);
+  /// `ties`, which must outlive the system, says which nodes of tiebreaks are held still: they touch nothing in their contact.
+  ContactSystem(const Model& model, State& state, const TiedContacts& ties, Diagnostics& diagnostics);
   ~ContactSystem();
   ContactSystem(const ContactSystem&) = delete;
   ContactSystem& operator=(const ContactSystem&) = delete;

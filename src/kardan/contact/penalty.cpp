@@ -31,12 +31,13 @@ std::array<Surface, 2> surfaces_of(const Model& model, const State& state, const
 
 }  // namespace
 
-PenaltyContact::PenaltyContact(const Model& model, State& state, Index index, Diagnostics& diagnostics)
+PenaltyContact::PenaltyContact(const Model& model, State& state, Index index, const TieHold& hold, Diagnostics& diagnostics)
     : model_(model),
       contact_(index),
       surfaces_(surfaces_of(model, state, contact(), diagnostics)),
       law_(model, contact()),
-      meter_(union_of(surfaces_)) {
+      meter_(union_of(surfaces_)),
+      hold_(hold) {
   const Contact& c = contact();
   const auto add = [&](const Surface& nodes, const Surface& segments, bool reversed) {
     directions_.push_back(std::make_unique<Direction>(Direction{PenaltyPass(model, nodes, segments), reversed}));
@@ -86,9 +87,10 @@ void PenaltyContact::search(const State& state) {
     margin_ *= std::clamp(cycles_between_searches / static_cast<double>(cycles_), 0.5, 2.0);
     margin_ = std::clamp(margin_, smallest_margin * size_, largest_margin * size_);
   }
-  for (const auto& d : directions_) d->pass.search(state, margin_);
+  for (const auto& d : directions_) d->pass.search(state, margin_, hold_.held);
   meter_.renew(state.nodes.x, state.nodes.v);
   renew_ = false;
+  releases_ = hold_.releases;
   cycles_ = 0;
 }
 
@@ -112,7 +114,7 @@ void PenaltyContact::evaluate(State& state, const std::vector<double>& inverse_m
   law_.follow_step(state.clock.dt);
   ++cycles_;
   if (born_ == 0) margin_ = largest_margin * size_;
-  if (renew_ || meter_.exceeds(0.5 * margin_, state.nodes.x)) {
+  if (renew_ || releases_ != hold_.releases || meter_.exceeds(0.5 * margin_, state.nodes.x)) {
     search(state);
     ++report.rebuilds;
   }

@@ -10,6 +10,7 @@
 #include "kardan/contact/edge_contact.hpp"
 #include "kardan/contact/motion_meter.hpp"
 #include "kardan/contact/penalty_pass.hpp"
+#include "kardan/contact/tie_springs.hpp"
 #include "kardan/model/model.hpp"
 #include "kardan/state/state.hpp"
 
@@ -18,7 +19,8 @@ namespace kardan {
 class PenaltyContact {
  public:
   /// Makes the surfaces, finds what touches at t = 0 and warns of initial penetrations. `inverse_mass` by node, see contact_masses.hpp.
-  PenaltyContact(const Model& model, State& state, Index contact, Diagnostics& diagnostics);
+  /// Nodes that `hold`, which must outlive the contact, holds touch nothing, and nothing touches their segments.
+  PenaltyContact(const Model& model, State& state, Index contact, const TieHold& hold, Diagnostics& diagnostics);
   PenaltyContact(const PenaltyContact&) = delete;
   PenaltyContact& operator=(const PenaltyContact&) = delete;
 
@@ -62,6 +64,8 @@ class PenaltyContact {
   double margin_ = 0;
   std::int64_t cycles_ = 0;           ///< since the last search
   std::uint64_t born_ = 0;
+  const TieHold& hold_;
+  std::uint64_t releases_ = 0;        ///< of hold_, that the candidates know of
   bool renew_ = true;
 };
 

@@ -67,7 +67,13 @@ void PenaltyPass::drop_dead(const Model& model, const Alive& alive) {
   dead_node_ = dead_nodes(model, *nodes_, alive);
 }
 
-void PenaltyPass::search(const State& state, double margin) {
+void PenaltyPass::search(const State& state, double margin, const std::vector<std::uint8_t>& held) {
+  std::vector<std::uint8_t> no_node = dead_node_, no_segment = dead_segment_;
+  if (!held.empty()) {
+    for (std::size_t p = 0; p < no_node.size(); ++p) no_node[p] |= held[nodes_->nodes()[p].node];
+    for (std::size_t s = 0; s < no_segment.size(); ++s)
+      for (const NodeIndex n : segments_->segments()[s].nodes) no_segment[s] |= held[n];
+  }
   std::vector<std::pair<Index, Index>> always;
   for (const Chunk& chunk : chunks_)
     for (const auto& pair : deep_pairs(chunk.touches, *nodes_, *segments_, margin)) always.push_back(pair);
@@ -76,13 +82,13 @@ void PenaltyPass::search(const State& state, double margin) {
   input.segments = segments_;
   input.x = &state.nodes.x;
   input.body = &state.nodes.body;
-  input.dead_node = &dead_node_;
-  input.dead_segment = &dead_segment_;
+  input.dead_node = &no_node;
+  input.dead_segment = &no_segment;
   input.margin = margin;
   std::erase_if(always, [&](const auto& pair) {
     const auto& corner = segments_->segments()[pair.second].nodes;
     return std::find(corner.begin(), corner.end(), nodes_->nodes()[pair.first].node) != corner.end() ||
-           dead_segment_[pair.second] || dead_node_[pair.first];
+           no_segment[pair.second] || no_node[pair.first];
   });
   search_.find(input, always, candidates_);
   wake_.assign(candidates_.segment.size(), 0.0);

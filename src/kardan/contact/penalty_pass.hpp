@@ -34,8 +34,8 @@ class PenaltyPass {
   const Surface& nodes() const { return *nodes_; }
   const Surface& segments() const { return *segments_; }
 
-  /// Lists the candidates anew.
-  void search(const State& state, double margin);
+  /// Lists the candidates anew. @param held  by node of the model: 1 leaves the node and its segments out; may be empty
+  void search(const State& state, double margin, const std::vector<std::uint8_t>& held);
   /// Touches and forces at t_n. @param inverse_mass  1/mass by node of the model, as stiffnesses see it
   /// @return energies of the step that ends at t_n
   PassEnergy evaluate(const State& state, const TouchFrame& frame, PenaltyLaw& law, const std::vector<double>& inverse_mass);

@@ -81,13 +81,14 @@ class TieSprings::StiffnessBound {
 };
 
 TieSprings::TieSprings(const Model& model, State& state, std::vector<TiedPoint> points)
-    : held_(model.contacts.size()), tracked_(model.contacts.size()), reference_(model.contacts.size()),
+    : holds_(model.contacts.size()), tracked_(model.contacts.size()), reference_(model.contacts.size()), counted_(model.contacts.size()),
       power_(model.contacts.size()) {
   for (TiedPoint& p : points) {
     const Contact& contact = model.contacts[p.contact];
     const bool turns = contact.tie.rotations && (state.nodes.inertia[at(p.node)] > 0 || state.nodes.body[at(p.node)] != none);
-    if (held_[p.contact].empty()) held_[p.contact].assign(model.nodes.size(), 0);
-    held_[p.contact][at(p.node)] = 1;
+    std::vector<std::uint8_t>& held = holds_[p.contact].held;
+    if (held.empty()) held.assign(model.nodes.size(), 0);
+    held[at(p.node)] = 1;
     state.nodes.needed[at(p.node)] = 1;
     p.foot.each([&](std::size_t, std::size_t n) { state.nodes.needed[n] = 1; });
     memory_.push_back({p.arm, p.normal, {}, 0, 0, 0, 0, 0});
@@ -166,6 +167,7 @@ void TieSprings::act(const Model& model, const State& state, std::size_t i) {
   actions_[i].fails = m.released != 0;
   if (m.released) return;
   Action& a = actions_[i];
+  a.holds = true;
   const Vec3 v_foot = p.foot.mean(nodes.v), w = SegmentFrame(p.foot, nodes, 0).angular_velocity(nodes);
   a.force = -((shear + m.normal * std::max(normal, 0.0)) * (k * left) + m.normal * (k * std::min(normal, 0.0)));
   if (contact.damping > 0)
@@ -187,7 +189,8 @@ void TieSprings::apply(const Model& model, State& state) {
     const Action& a = actions_[i];
     const TiedPoint& p = springs_[i].point;
     if (a.fails) {
-      held_[p.contact][at(p.node)] = 0;
+      holds_[p.contact].held[at(p.node)] = 0;
+      ++holds_[p.contact].releases;
       spdlog::info("contact {}: node {} lets go at t = {:.6g}", model.contacts[p.contact].id, model.nodes.id[at(p.node)], state.clock.time);
     }
     nodes.force[at(p.node)] += a.force;
@@ -205,7 +208,7 @@ void TieSprings::apply(const Model& model, State& state) {
   }
 }
 
-void TieSprings::account(State& state, bool looked_at) {
+void TieSprings::account(State& state) {
   const NodeState& nodes = state.nodes;
   std::fill(power_.begin(), power_.end(), Power{});
   for (std::size_t i = 0; i < springs_.size(); ++i) {
@@ -214,18 +217,24 @@ void TieSprings::account(State& state, bool looked_at) {
     const std::size_t s = at(p.node);
     power_[p.contact].node += dot(a.force, nodes.v[s]) + dot(a.moment, nodes.omega[s]);
     power_[p.contact].segment -= dot(a.force, p.foot.mean(nodes.v)) + dot(a.at_foot, SegmentFrame(p.foot, nodes, 0).angular_velocity(nodes));
-    if (!looked_at || memory_[i].released) continue;
-    ContactReport& report = state.contacts[p.contact];
-    report.force += a.force;
-    report.moment += cross(nodes.x[s], a.force) + a.moment;
-    ++report.touching;
   }
   for (std::size_t c = 0; c < power_.size(); ++c) {
-    const double tracked = tracked_[c].after(power_[c].node, state.clock), reference = reference_[c].after(power_[c].segment, state.clock);
-    if (!looked_at || held_[c].empty()) continue;
-    state.contacts[c].tracked_energy = -tracked;
-    state.contacts[c].reference_energy = -reference;
-    state.energy.sliding -= tracked + reference;
+    if (holds_[c].held.empty()) continue;
+    const Power work{tracked_[c].after(power_[c].node, state.clock), reference_[c].after(power_[c].segment, state.clock)};
+    state.contacts[c].tracked_energy -= work.node - counted_[c].node;
+    state.contacts[c].reference_energy -= work.segment - counted_[c].segment;
+    counted_[c] = work;
+  }
+}
+
+void TieSprings::report(State& state) const {
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    const Action& a = actions_[i];
+    if (!a.holds) continue;
+    ContactReport& report = state.contacts[springs_[i].point.contact];
+    report.force += a.force;
+    report.moment += cross(state.nodes.x[at(springs_[i].point.node)], a.force) + a.moment;
+    ++report.touching;
   }
 }
 
@@ -248,6 +257,7 @@ void TieSprings::turn(const State& state) {
 
 void TieSprings::restart() {
   for (auto* meters : {&tracked_, &reference_}) std::fill(meters->begin(), meters->end(), WorkMeter{});
+  std::fill(counted_.begin(), counted_.end(), Power{});
 }
 
 }  // namespace kardan

@@ -33,6 +33,12 @@
 
 namespace kardan {
 
+/// Which nodes the springs of a contact hold, for the contact that a tiebreak becomes.
+struct TieHold {
+  std::vector<std::uint8_t> held;  ///< by node of the model, 1 or 0; empty: the contact has no springs
+  std::uint64_t releases = 0;      ///< so far
+};
+
 class TieSprings {
  public:
   /// Bodies and lumped masses, still with the tied nodes, must stand in the state. Marks nodes of bodies as needed.
@@ -41,15 +47,15 @@ class TieSprings {
   bool empty() const { return springs_.empty(); }
   /// Adds the forces at t_n to state.nodes.force and .moment, in the order of the ties; those that fail let go, with a line in the log.
   void apply(const Model& model, State& state);
-  /// After the kick, with velocities at t_{n+1/2}: work up to t_n, forces and moments into state.contacts and, if `looked_at`, the energy into
-  /// state.energy.
-  void account(State& state, bool looked_at);
+  /// Every cycle after the kick, with velocities at t_{n+1/2}: the springs' energies up to t_n are added to state.contacts.
+  void account(State& state);
+  /// Adds forces and moments at t_n to state.contacts.
+  void report(State& state) const;
   /// After the drift: arms to t_{n+1}.
   void turn(const State& state);
   /// The springs have forgotten all work (after the dynamic relaxation).
   void restart();
-  /// By node of the model: 1 where contact `contact` still holds it; empty if that has no springs. For the contact that comes after a tiebreak.
-  const std::vector<std::uint8_t>& held(std::size_t contact) const { return held_[contact]; }
+  const TieHold& hold(std::size_t contact) const { return holds_[contact]; }
 
  private:
   struct Memory {
@@ -63,14 +69,14 @@ class TieSprings {
     Vec3 force, moment;            ///< on the node
     Vec3 at_foot;                  ///< minus the moment on the segment
     double power_node = 0, power_segment = 0;  ///< with the velocities of before the kick
-    bool fails = false;
+    bool holds = false, fails = false;
   };
   struct Spring {
     TiedPoint point;
     double stiffness = 0, turning_stiffness = 0;  ///< times dt^2
     bool breaks = false, rotations = false;
   };
-  struct Power {
+  struct Power {                   ///< or work
     double node = 0, segment = 0;
   };
   class StiffnessBound;
@@ -82,9 +88,10 @@ class TieSprings {
   std::vector<Spring> springs_;    ///< by contact, then node
   std::vector<Memory> memory_;
   std::vector<Action> actions_;
-  std::vector<std::vector<std::uint8_t>> held_;  ///< by contact of the model
-  std::vector<WorkMeter> tracked_, reference_;   ///< by contact
-  std::vector<Power> power_;       ///< by contact, work space
+  std::vector<TieHold> holds_;     ///< by contact of the model, likewise the next ones
+  std::vector<WorkMeter> tracked_, reference_;
+  std::vector<Power> counted_;     ///< work that state.contacts has already
+  std::vector<Power> power_;       ///< work space
   double step_ = 0;                ///< dt of the stiffness; 0 before the first step
 };
 

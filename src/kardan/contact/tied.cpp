@@ -20,7 +20,13 @@ std::vector<TiedPoint> points_of(const Model& model, const State& state, bool sp
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     if (!tied(model.contacts[c]) || by_springs(model.contacts[c]) != springs) continue;
     const std::vector<TiedPoint> found = find_tied_points(model, state, c, diagnostics);
-    points.insert(points.end(), found.begin(), found.end());
+    for (const TiedPoint& p : found) {
+      const auto n = static_cast<std::size_t>(p.node);
+      if (!springs || state.nodes.mass[n] > 0 || state.nodes.body[n] != none) points.push_back(p);
+      else
+        diagnostics.error("node " + std::to_string(model.nodes.id[n]) + " has no mass that the springs of contact " +
+                              std::to_string(model.contacts[c].id) + " could hold", "name nodes of elements", model.contacts[c].keyword);
+    }
   }
   return points;
 }
@@ -45,24 +51,23 @@ void check(const Contact& contact, Diagnostics& diagnostics) {
 TiedContacts::TiedContacts(const Model& model, State& state, Diagnostics& diagnostics)
     : kinematic_(model, state, points_of(model, state, false, diagnostics), diagnostics),
       springs_(model, state, points_of(model, state, true, diagnostics)) {
-  state.contacts.resize(model.contacts.size());
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     if (!tied(model.contacts[c])) continue;
-    contacts_.push_back(c);
+    if (model.contacts[c].law == ContactLaw::tied) for_good_.push_back(c);
     check(model.contacts[c], diagnostics);
   }
 }
 
-void TiedContacts::account(State& state, bool looked_at) {
-  if (looked_at) {
-    for (const std::size_t c : contacts_) {
-      state.contacts[c].force = state.contacts[c].moment = {};
-      state.contacts[c].touching = 0;
-    }
-    kinematic_.account(state);
-    kinematic_.report(state);
+void TiedContacts::report(State& state) const {
+  for (const std::size_t c : for_good_) {  // PenaltyContact does so for those that break
+    ContactReport& contact = state.contacts[c];
+    contact.force = contact.moment = {};
+    contact.touching = 0;
+    state.energy.sliding += contact.tracked_energy + contact.reference_energy;
   }
-  springs_.account(state, looked_at);
+  kinematic_.account(state);
+  kinematic_.report(state);
+  springs_.report(state);
 }
 
 void TiedContacts::drift(State& state) {

@@ -16,7 +16,7 @@ namespace kardan {
 
 class TiedContacts {
  public:
-  /// Finds the tied nodes; marks nodes of bodies as needed; makes room in state.contacts. Bodies and lumped masses must stand in the state.
+  /// Finds the tied nodes; marks nodes of bodies as needed. Bodies and lumped masses must stand in the state.
   TiedContacts(const Model& model, State& state, Diagnostics& diagnostics);
 
   /// After the initial velocities: masses and momenta of nodes without springs go to their segments.
@@ -32,17 +32,19 @@ class TiedContacts {
   void follow(State& state) { kinematic_.follow(state); }
   /// In a cycle that is looked at: velocities and accelerations at t_n.
   void settle(State& state) const { kinematic_.settle(state); }
-  /// Every cycle; if `looked_at`, energies into state.energy and reports into state.contacts.
-  void account(State& state, bool looked_at);
+  /// Every cycle: energies of springs up to t_n into state.contacts.
+  void account(State& state) { springs_.account(state); }
+  /// In a cycle that is looked at, after the other contacts have reported: forces into state.contacts, energies into state.energy.
+  void report(State& state) const;
   /// After the drift of all other nodes.
   void drift(State& state);
   void restart() { springs_.restart(); }
 
-  /// By node of the model: 1 where a tie of contact `contact` still holds the node; empty if it has none that breaks.
-  const std::vector<std::uint8_t>& held(std::size_t contact) const { return springs_.held(contact); }
+  /// Nodes of contact `contact` of the model that springs hold.
+  const TieHold& hold(std::size_t contact) const { return springs_.hold(contact); }
 
  private:
-  std::vector<std::size_t> contacts_;  ///< tied ones, into Model::contacts
+  std::vector<std::size_t> for_good_;  ///< contacts that never break, into Model::contacts
   KinematicTies kinematic_;
   TieSprings springs_;
 };

@@ -80,7 +80,7 @@ void Solver::set_up(const SolverOptions& options, Diagnostics& diagnostics) {
   ties_ = std::make_unique<TiedContacts>(model_, state_, diagnostics);
   LoadSystem::set_initial_velocities(model_, state_, diagnostics);
   loads_ = std::make_unique<LoadSystem>(model_, state_, diagnostics);  // takes out velocities against supports
-  contacts_ = std::make_unique<ContactSystem>(model_, state_, diagnostics);
+  contacts_ = std::make_unique<ContactSystem>(model_, state_, *ties_, diagnostics);
   if (!diagnostics.ok()) return;
   ties_->take_masses(state_);
   rigid_->set_initial_velocities(model_, state_, diagnostics);
@@ -242,11 +242,12 @@ void Solver::account() {
   if (looked_at_) energy.begin(model_.parts.size());
   loads_->account(model_, state_);
   walls_->close_kick(state_);
-  ties_->account(state_, looked_at_);
+  ties_->account(state_);
   if (!looked_at_) return;
   elements_->account(model_, state_);
   rigid_->account(model_, state_);
   contacts_->account(state_);
+  ties_->report(state_);
   walls_->account(state_);
   nodes_->account(state_);
   if (state_.clock.cycle == 0) energy.initial = energy.total();

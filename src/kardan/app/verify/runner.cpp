@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kardan/app/verify/signal.hpp"
+#include "kardan/contact/tie_search.hpp"
 #include "kardan/io/deck/load.hpp"
 #include "kardan/solver/solver.hpp"
 
@@ -106,6 +107,7 @@ Model model_of(const Run& run, Diagnostics& diagnostics) {
   Model model = deck::load_model(run.deck, options, diagnostics);
   for (const Diagnostic& unsupported : model.unsupported) diagnostics.add(unsupported);
   if (!diagnostics.ok()) refuse(run, diagnostics);
+  move_tied_nodes(model, diagnostics);
   return model;
 }
 

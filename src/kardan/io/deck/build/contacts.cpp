@@ -323,8 +323,6 @@ void build_contact(Builder& b, Block& block) {
   if (contact.initial_penetration == 0) contact.initial_penetration = ignore;
   if (meaning.law == Law::tied || meaning.law == Law::tiebreak) read_tie(b, cards, meaning, contact);
   if (meaning.third == ThirdCard::rigid) read_rigid_law(b, cards, contact);
-  const bool computed = meaning.law == Law::penalty || meaning.law == Law::transducer;
-  if (!computed) b.unsupported(block, "this contact is read but not computed by this version", "--without contact leaves it out at your own risk");
   b.model.contacts.push_back(std::move(contact));
 }
 
