@@ -76,22 +76,32 @@ TEST(TieSprings, RigidRotationLeavesNoForce) {
   EXPECT_LT(force, 1e-11 * test::steel.youngs_modulus);
 }
 
-/// A brick drawn off a held one at a constant velocity; `square` is its edge.
-struct Pull {
-  double largest_force = 0, next = 0, area = 0, energy = 0, released_at = 0;
-};
 constexpr double square = 0.1;
 
+/// A brick of edge `square` that a tiebreak ties to a larger one, which is held.
+struct TiedBrick : Ties {
+  NodeIndex first;
+  explicit TiedBrick(const Tie& tie) {
+    const PartIndex low = solid_part(test::steel), high = solid_part(test::steel);
+    block(low, {1, 1, 1}, {-square, -square, -square}, {3 * square, 3 * square, square});
+    first = block(high, {1, 1, 1}, {}, {square, square, square});
+    Contact& c = this->tie(side({high}), {low}, Holding::offset);
+    c.law = ContactLaw::tiebreak;
+    c.two_way = true;
+    c.tie = tie;
+    for (NodeIndex n = 0; n < first; ++n) model.nodes.constrained[static_cast<std::size_t>(n)] = dof_all;
+  }
+  std::vector<NodeIndex> nodes() const { return range(first, first + 8); }
+};
+
+/// What is seen of one drawn off at a constant velocity.
+struct Pull {
+  double largest_force = 0, next = 0, energy = 0, released_at = 0;
+};
+
 Pull pull(const Tie& tie, const Vec3& velocity, double time) {
-  Ties b;
-  const PartIndex low = b.solid_part(test::steel), high = b.solid_part(test::steel);
-  b.block(low, {1, 1, 1}, {-square, -square, -square}, {3 * square, 3 * square, square});
-  const NodeIndex first = b.block(high, {1, 1, 1}, {}, {square, square, square});
-  Contact& c = b.tie(b.side({high}), {low}, Holding::offset);
-  c.law = ContactLaw::tiebreak;
-  c.tie = tie;
-  for (NodeIndex n = 0; n < first; ++n) b.model.nodes.constrained[static_cast<std::size_t>(n)] = dof_all;
-  for (int dof = 1; dof <= 3; ++dof) b.drive(Ties::range(first, first + 8), dof, velocity[static_cast<std::size_t>(dof - 1)]);
+  TiedBrick b(tie);
+  for (int dof = 1; dof <= 3; ++dof) b.drive(b.nodes(), dof, velocity[static_cast<std::size_t>(dof - 1)]);
   b.model.control.termination.end_time = time;
   Diagnostics diagnostics;
   Solver solver(b.model, {}, diagnostics);
@@ -101,12 +111,12 @@ Pull pull(const Tie& tie, const Vec3& velocity, double time) {
     const double force = norm(s.contacts[0].force);
     if (force > result.largest_force) result.largest_force = force, result.next = force - before;  // growth a step
     before = force;
-    if (s.contacts[0].touching > 0) result.released_at = s.clock.time;
+    if (force > 1e-6 * result.largest_force) result.released_at = s.clock.time;
     result.energy = s.energy.sliding;
   });
   solver.attach(each);
   solver.run();
-  EXPECT_EQ(solver.state().contacts[0].touching, 0);
+  EXPECT_LT(before, 1e-6 * result.largest_force);  // sliding on, it may touch
   return result;
 }
 
@@ -134,25 +144,42 @@ TEST(TieBreak, LetsGoAtTheLimit) {
   at_limit({0, 0, 1}, 3e5 * square * square);
 }
 
-/// Pressure does not count; shear under it does.
 TEST(TieBreak, PressureDoesNotBreakIt) {
   Tie tie;
   tie.normal_limit = 3e3;
-  Ties b;
-  const PartIndex low = b.solid_part(test::steel), high = b.solid_part(test::steel);
-  b.block(low, {1, 1, 1}, {-square, -square, -square}, {3 * square, 3 * square, square});
-  const NodeIndex first = b.block(high, {1, 1, 1}, {}, {square, square, square});
-  Contact& c = b.tie(b.side({high}), {low}, Holding::offset);
-  c.law = ContactLaw::tiebreak;
-  c.tie = tie;
-  for (NodeIndex n = 0; n < first; ++n) b.model.nodes.constrained[static_cast<std::size_t>(n)] = dof_all;
-  b.drive(Ties::range(first, first + 8), 3, -1e-3);
+  TiedBrick b(tie);
+  b.drive(b.nodes(), 3, -1e-3);
   b.model.control.termination.end_time = 1e-2;
   Diagnostics diagnostics;
   Solver solver(b.model, {}, diagnostics);
   solver.run();
   EXPECT_EQ(solver.state().contacts[0].touching, 4);
   EXPECT_GT(solver.state().contacts[0].force.z, 4 * 3e3);
+}
+
+/// Drawn off until it is free, then pushed back: it touches where it was tied, and is pushed out.
+TEST(TieBreak, IsAContactAfterwards) {
+  Tie tie;
+  tie.normal_limit = 3e3;
+  TiedBrick b(tie);
+  b.drive(b.nodes(), 3, 1);
+  const double speed = 1e-3, turn = 5e-3;
+  b.model.curves[0].x = {0, turn, turn * (1 + 1e-9), 1};
+  b.model.curves[0].y = {speed, speed, -speed, -speed};
+  b.model.control.termination.end_time = 2.4 * turn;
+  Diagnostics diagnostics;
+  Solver solver(b.model, {}, diagnostics);
+  double between = 0, first_touch = 0;
+  Each each([&](const State& s) {
+    const ContactReport& c = s.contacts[0];
+    if (s.clock.time > 0.6 * turn && s.clock.time < 1.9 * turn) between = std::max(between, norm(c.force));
+    if (s.clock.time > 0.6 * turn && first_touch == 0 && c.touching > 0) first_touch = s.clock.time;
+  });
+  solver.attach(each);
+  solver.run();
+  EXPECT_EQ(between, 0);
+  EXPECT_NEAR(first_touch, 2 * turn, 0.05 * turn);
+  EXPECT_GT(solver.state().contacts[0].force.z, 100);
 }
 
 /// Option 6: the whole work is half the stress at onset times CCRIT, by opening, shear or both.
@@ -183,7 +210,7 @@ TEST(Ties, GiveTheSameBitsForAnyNumberOfThreads) {
   kinematic.tie.distance = 0.02;
   b.throw_from(first, first + 300, {0, 5, 20});
   b.model.control.termination.end_time = 1;
-  b.model.control.termination.end_cycle = 25;
+  b.model.control.termination.end_cycle = 8;
   const auto hash = [&](int threads) {
     Diagnostics diagnostics;
     Solver solver(b.model, {.threads = threads}, diagnostics);

@@ -13,6 +13,7 @@ namespace kardan {
 namespace {
 
 constexpr double share_of_springs = 0.4, share_of_turning = 0.2;  ///< alpha: largest eigenvalue times dt^2
+constexpr double heavier = 10;  ///< times its rotary inertia is that of a node whose rotations springs hold
 constexpr double grown = 1.05;                                    ///< of the step, before the stiffness follows
 /// Fewer ties than this are done by one thread: waking the others costs more than it saves.
 constexpr std::ptrdiff_t parallel_threshold = 2000;
@@ -86,6 +87,7 @@ TieSprings::TieSprings(const Model& model, State& state, std::vector<TiedPoint> 
   for (TiedPoint& p : points) {
     const Contact& contact = model.contacts[p.contact];
     const bool turns = contact.tie.rotations && (state.nodes.inertia[at(p.node)] > 0 || state.nodes.body[at(p.node)] != none);
+    if (turns && state.nodes.body[at(p.node)] == none) state.nodes.inertia[at(p.node)] *= heavier;
     std::vector<std::uint8_t>& held = holds_[p.contact].held;
     if (held.empty()) held.assign(model.nodes.size(), 0);
     held[at(p.node)] = 1;
@@ -107,6 +109,9 @@ TieSprings::TieSprings(const Model& model, State& state, std::vector<TiedPoint> 
   }
   actions_.resize(springs_.size());
   state.registry.add({"ties.springs", "mixed", "contact.apply, contact.turn"}, memory_);
+  state.registry.add({"ties.tracked_work", "energy", "contact.account"}, tracked_);
+  state.registry.add({"ties.reference_work", "energy", "contact.account"}, reference_);
+  state.registry.add({"ties.counted_work", "energy", "contact.account"}, counted_);
   state.registry.add_value({"ties.step", "time", "contact.apply"}, step_);
 }
 

@@ -11,7 +11,8 @@
 //   max_s k_s sum_j |b_sj| c_j/m_j,   c_j = sum_t |b_tj|,
 // with b_sj the share of spring s in node j: 1 for the tied node, w_j for corners, and what the arm adds. So
 //   k_s = alpha/(dt^2 sum_j |b_sj| c_j/m_j)
-// bounds them by alpha/dt^2, far enough from the 4/dt^2 that the elements may use up to TSSFAC^2 of; k_r likewise. A body counts as one
+// bounds them by alpha/dt^2, far enough from the 4/dt^2 that the elements may use up to TSSFAC^2 of; k_r likewise. Ends of weld beams
+// have so little rotary inertia that k_r would be softer than the beam; they get ten times theirs, which is little beside that of the plate they turn with. A body counts as one
 // node of its mass and smallest inertia. dt is the largest step so far: k falls when the step has grown by 5 %, and the stretch grows then, so that
 // no force jumps. c = 2 xi k/omega, xi = VDC, omega = sqrt(alpha)/dt.
 //
@@ -41,7 +42,7 @@ struct TieHold {
 
 class TieSprings {
  public:
-  /// Bodies and lumped masses, still with the tied nodes, must stand in the state. Marks nodes of bodies as needed.
+  /// Bodies and lumped masses, still with the tied nodes, must stand in the state. Marks nodes of bodies as needed, raises rotary inertias.
   TieSprings(const Model& model, State& state, std::vector<TiedPoint> points);
 
   bool empty() const { return springs_.empty(); }
