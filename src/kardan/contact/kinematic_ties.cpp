@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -151,9 +152,10 @@ const std::vector<NodeIndex>& KinematicTies::pass_on_masses(State& state) {
   return changed_;
 }
 
-void KinematicTies::transfer(State& state) {
+double KinematicTies::transfer(State& state) {
   NodeState& nodes = state.nodes;
   const double kick = state.clock.kick();
+  double square = 0;
   for (std::size_t i = ties_.size(); i-- > 0;) {
     Tie& t = ties_[i];
     const std::size_t s = at(t.point.node);
@@ -166,8 +168,10 @@ void KinematicTies::transfer(State& state) {
       else nodes.force[n] += f;  // tied itself: passed on when its turn comes
       if (nodes.mass[n] > 0 && nodes.inertia[n] > 0) nodes.omega[n] += m * (kick / nodes.inertia[n]);
       else nodes.moment[n] += m;
+      square = std::max(square, dot(nodes.v[n], nodes.v[n]));
     });
   }
+  return std::sqrt(square);
 }
 
 void KinematicTies::follow(State& state) {

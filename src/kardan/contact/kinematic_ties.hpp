@@ -32,7 +32,8 @@ class KinematicTies {
   /// Gives mass that was added to tied nodes to the corners, as above. @return corners whose mass has changed
   const std::vector<NodeIndex>& pass_on_masses(State& state);
   /// After the kick of the free nodes, which leaves out nodes without mass: their forces become impulses of the corners.
-  void transfer(State& state);
+  /// @return an upper bound of the corners' speeds now
+  double transfer(State& state);
   /// After the velocities of the free nodes were constrained: those of the tied ones.
   void follow(State& state);
   /// In a cycle that is looked at: v_now, a, omega_now and alpha of the tied nodes.

@@ -26,8 +26,8 @@ class TiedContacts {
 
   /// Forces of springs at t_n.
   void apply(const Model& model, State& state) { springs_.apply(model, state); }
-  /// Right after the kick of the free nodes.
-  void transfer(State& state) { kinematic_.transfer(state); }
+  /// Right after the kick of the free nodes. @return an upper bound of the speeds of the nodes of segments now
+  double transfer(State& state) { return kinematic_.transfer(state); }
   /// After the velocities of the free nodes were constrained.
   void follow(State& state) { kinematic_.follow(state); }
   /// In a cycle that is looked at: velocities and accelerations at t_n.

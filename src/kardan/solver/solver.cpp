@@ -191,14 +191,14 @@ void Solver::kick() {
   const double fastest = nodes_->fastest();
   walls_->before_kick(state_, fastest);
   nodes_->kick(model_, state_, *elements_, looked_at_);
-  ties_->transfer(state_);
+  const double after = std::max(nodes_->fastest(), ties_->transfer(state_));
   timers_.lap(Phase::nodes);
   rigid_->gather_forces(state_);
   loads_->damp(model_, state_);
   timers_.lap(Phase::loads);
   rigid_->kick(model_, state_);
   timers_.lap(Phase::rigid);
-  walls_->hold(model_, state_, speed_bound(model_, fastest, nodes_->fastest()));
+  walls_->hold(model_, state_, speed_bound(model_, fastest, after));
   loads_->constrain_velocities(model_, state_);
   ties_->follow(state_);
 }
