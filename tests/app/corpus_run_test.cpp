@@ -138,12 +138,26 @@ TEST_F(CorpusRun, EnergyRatioOfJointTranslationalIsTheReadingOfCentralDifference
   }
 }
 
-TEST_F(CorpusRun, BeltedDummyIsRefusedWhileItsContactsAreNotBuilt) {
-  const fs::path deck = corpus / "belted_dummy/belted_dummy_main.k";
-  EXPECT_EQ(call({"run", deck.string(), "-o", (folder / "dummy").string()}), 2);
-  EXPECT_THAT(err, HasSubstr("belted_dummy_main.k:1390:1: error: *CONTACT_SURFACE_TO_SURFACE"));
-  EXPECT_THAT(err, HasSubstr("--without contact"));
-  EXPECT_THAT(out, Not(HasSubstr("normal termination")));
+TEST_F(CorpusRun, CrashDecksWithContactRunToTheirEnd) {
+  for (const char* deck : {"dynakw/mat_piecewise_linear.plate-shatter.k", "pydyna_ball_plate/output_ball_plate.k", "reid_pendulum/pendulum.k",
+                           "reid_pipe/pipe.k"}) {
+    SCOPED_TRACE(deck);
+    const nlohmann::json s = finished(corpus / deck, {}, 0.03);
+    EXPECT_GT(s["model"]["contacts"], 0);
+  }
+}
+
+TEST_F(CorpusRun, LongCrashDecksWithContactRunToTheirEnd) {
+  if (std::getenv("KARDAN_LONG") == nullptr) GTEST_SKIP() << "skipped: takes minutes; make verify-long runs it";
+  for (const char* deck : {"jrycw_box_drop/main.k", "belted_dummy/belted_dummy_main.k", "lsopt_car6/main_v223.k"}) {
+    SCOPED_TRACE(deck);
+    finished(corpus / deck, {"-j", "2"}, 0.03);
+  }
+}
+
+TEST_F(CorpusRun, AdaptiveFormingIsRefusedByNameAndLine) {
+  EXPECT_EQ(call({"run", (corpus / "pydyna_simple_roll/output_model.k").string(), "-o", (folder / "roll").string()}), 2);
+  EXPECT_THAT(err, HasSubstr("output_model.k:13:1: error: *CONTROL_ADAPTIVE"));
 }
 
 TEST_F(CorpusRun, BeltedDummyFliesWithoutContactForFiveMilliseconds) {

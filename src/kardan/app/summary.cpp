@@ -100,7 +100,8 @@ json summarize(const Solver& solver, const RunRecord& record) {
   summary["model"] = {{"nodes", model.nodes.size()},   {"parts", model.parts.size()},
                       {"shells", model.shells.size()}, {"solids", model.solids.size()},
                       {"beams", model.beams.size()},   {"discretes", model.discretes.size()},
-                      {"bodies", state.bodies.motion.size()}, {"joints", model.joints.size()}};
+                      {"bodies", state.bodies.motion.size()}, {"joints", model.joints.size()},
+                      {"contacts", model.contacts.size()},  {"rigid_walls", model.rigid_walls.size()}};
   summary["wall_seconds"] = wall_seconds(solver, record);
   summary["energies"] = energies(state.energy);
   if (model.control.time_step.dt2ms != 0)
