@@ -50,7 +50,15 @@ class SolidFormulation : public ::testing::TestWithParam<Formulation> {};
 
 INSTANTIATE_TEST_SUITE_P(All, SolidFormulation,
                          ::testing::Values(Formulation{1, 8, 6}, Formulation{1, 6, 4}, Formulation{1, 4, 1}, Formulation{2, 8, 1},
-                                           Formulation{2, 6, 1}, Formulation{10, 4, 1}, Formulation{13, 4, 1}, Formulation{15, 6, 1}));
+                                           Formulation{2, 6, 1}, Formulation{3, 8, 1}, Formulation{3, 6, 1}, Formulation{10, 4, 1}, Formulation{13, 4, 1}, Formulation{15, 6, 1}));
+
+/// Angular velocities of all nodes that have rotary inertia.
+template <class F>
+void spin(Bench& b, F&& spin_of_node) {
+  for (std::size_t n = 0; n < b.model.nodes.size(); ++n) {
+    if (b.state.nodes.inertia[n] > 0) b.state.nodes.omega[n] = spin_of_node(n);
+  }
+}
 
 /// Irons' patch after one finite step: uniform stress, no force on inner nodes, no hourglass energy.
 TEST_P(SolidFormulation, PassesThePatchTest) {
@@ -96,11 +104,13 @@ TEST_P(SolidFormulation, RigidRotationTurnsTheStressAndLeavesTheEnergy) {
   std::uniform_real_distribution<double> uniform(-0.004, 0.004);
   for (Vec3& p : strained) p += some_gradient() * p * 0.01 + Vec3{uniform(random), uniform(random), uniform(random)};
   move_to(b, strained, 1e-3);
+  spin(b, [&](std::size_t) { return Vec3{uniform(random), uniform(random), uniform(random)} * 1e3; });
   b.forces();
   move_to(b, strained, 1e-3);  // at rest: viscous forces are gone
+  spin(b, [](std::size_t) { return Vec3{}; });
   b.forces();
   b.look();
-  const std::vector<Vec3> f0 = b.state.nodes.force;
+  const std::vector<Vec3> f0 = b.state.nodes.force, m0 = b.state.nodes.moment;
   const std::vector<StressVector> s0 = b.state.results.solid.stress;
   const double energy = b.state.energy.internal, springs = b.state.energy.hourglass;
   ASSERT_GT(energy, 0.0);
@@ -111,6 +121,7 @@ TEST_P(SolidFormulation, RigidRotationTurnsTheStressAndLeavesTheEnergy) {
     std::vector<Vec3> x = strained;
     for (Vec3& p : x) p = q * p;
     move_to(b, x, 1e-3);
+    spin(b, [&](std::size_t) { return axis * (2 * std::numbers::pi / 120 / 1e-3); });
     b.forces();
     if (i % 30 != 0) continue;
     b.look();
@@ -118,7 +129,10 @@ TEST_P(SolidFormulation, RigidRotationTurnsTheStressAndLeavesTheEnergy) {
       const Mat3 before = to_tensor(s0[e]);
       EXPECT_LT(size_of(to_tensor(b.state.results.solid.stress[e]) - q * before * transpose(q)), 1e-9 * size_of(before)) << i;
     }
-    for (std::size_t n = 0; n < f0.size(); ++n) EXPECT_LT(norm(b.state.nodes.force[n] - q * f0[n]), 1e-9 * norm(f0[n])) << i;
+    for (std::size_t n = 0; n < f0.size(); ++n) {
+      EXPECT_LT(norm(b.state.nodes.force[n] - q * f0[n]), 1e-9 * norm(f0[n])) << i;
+      EXPECT_LE(norm(b.state.nodes.moment[n] - q * m0[n]), 1e-9 * norm(m0[n])) << i;
+    }
   }
   EXPECT_NEAR(b.state.energy.internal, energy, 1e-9 * energy);
   EXPECT_NEAR(b.state.energy.hourglass, springs, 1e-9 * energy);
@@ -136,12 +150,13 @@ TEST_P(SolidFormulation, ForcesConserveLinearAndAngularMomentum) {
       b.state.nodes.v[n] = Vec3{uniform(random), uniform(random), uniform(random)} * 10.0;
       b.state.nodes.x[n] += b.state.nodes.v[n] * dt;
     }
+    spin(b, [&](std::size_t) { return Vec3{uniform(random), uniform(random), uniform(random)} * 10.0; });
     b.forces();
     Vec3 force, moment;
     double size = 0, arm = 0;
     for (std::size_t n = 0; n < b.model.nodes.size(); ++n) {
       force += b.state.nodes.force[n];
-      moment += cross(b.state.nodes.x[n], b.state.nodes.force[n]);
+      moment += cross(b.state.nodes.x[n], b.state.nodes.force[n]) + b.state.nodes.moment[n];
       size += norm(b.state.nodes.force[n]);
       arm = std::max(arm, norm(b.state.nodes.x[n]));
     }
@@ -164,14 +179,19 @@ TEST_P(SolidFormulation, EnergyIsKeptInFreeVibration) {
     b.state.nodes.v[n] = Vec3{std::sin(x.x + x.y), std::cos(x.z), std::sin(x.x)} * 5.0;
     initial += 0.5 * b.state.nodes.mass[n] * dot(b.state.nodes.v[n], b.state.nodes.v[n]);
   }
+  spin(b, [&](std::size_t n) { return b.state.nodes.v[n]; });
+  for (std::size_t n = 0; n < b.model.nodes.size(); ++n) initial += 0.5 * b.state.nodes.inertia[n] * dot(b.state.nodes.omega[n], b.state.nodes.omega[n]);
   b.forces();
   const double dt = 0.25 * b.elements->stable_time_step();
   double worst = 0, stored = 0;
   for (int i = 0; i < 400; ++i) {
-    const std::vector<Vec3> v = b.state.nodes.v;
+    const std::vector<Vec3> v = b.state.nodes.v, omega = b.state.nodes.omega;
     b.step(dt);
     double kinetic = 0;
-    for (std::size_t n = 0; n < v.size(); ++n) kinetic += 0.5 * b.state.nodes.mass[n] * dot(v[n], b.state.nodes.v[n]);
+    for (std::size_t n = 0; n < v.size(); ++n) {
+      kinetic += 0.5 * b.state.nodes.mass[n] * dot(v[n], b.state.nodes.v[n]) +
+                 0.5 * b.state.nodes.inertia[n] * dot(omega[n], b.state.nodes.omega[n]);
+    }
     if (i == 0) continue;  // the first kick is half a step
     worst = std::max(worst, std::abs(kinetic + b.state.energy.internal + b.state.energy.hourglass - initial));
     stored = std::max(stored, b.state.energy.internal);
@@ -191,6 +211,7 @@ std::uint64_t hash_after_cycles(const Formulation& f, int threads, int level) {
     const Vec3& x = b.model.nodes.x[n];
     b.state.nodes.v[n] = Vec3{std::sin(3 * x.x), std::cos(5 * x.y), std::sin(4 * x.x + x.z)} * 20.0;
   }
+  spin(b, [&](std::size_t n) { return Vec3{std::cos(2 * b.model.nodes.x[n].y), std::sin(b.model.nodes.x[n].z), 1} * 20.0; });
   for (int i = 0; i < 10; ++i) b.step(5e-6);
   omp_set_num_threads(before);
   set_kernel_level(0);
@@ -368,6 +389,8 @@ TEST(SolidSections, WhatDoesNotFitTheShapeIsRefused) {
   EXPECT_NE(message({13, 6, 1}).find("ELFORM = 13"), std::string::npos);
   EXPECT_NE(message({15, 4, 1}).find("that are tetrahedra"), std::string::npos);
   EXPECT_NE(message({15, 8, 1}).find("that are hexahedra"), std::string::npos);
+  EXPECT_NE(message({3, 4, 1}).find("that are tetrahedra"), std::string::npos);
+  EXPECT_NE(message({4, 4, 1}).find("ELFORM = 4"), std::string::npos);
   EXPECT_EQ(message({10, 4, 1}), "");
 }
 

@@ -8,6 +8,26 @@ def cantilever_step(force, mass, frequencies, t):
     return sum(4 * force / (mass * w * w) * (1 - math.cos(w * t)) for w in (2 * math.pi * f for f in frequencies))
 
 
+def timoshenko_first_frequency(e, g, rho, length, b, h):
+    """First frequency [1/time] of a clamped Timoshenko beam of section b by h, shear factor 5/6: the root of Huang's equation (1961, J. Appl.
+    Mech. 28, 579-584), with p^2 = rho A L^4 w^2/(E I), r^2 = I/(A L^2), s^2 = E I/(k A G L^2); it lies a little below Euler's."""
+    area, inertia = b * h, b * h ** 3 / 12
+    r2, s2 = inertia / (area * length ** 2), e * inertia / (5 / 6 * area * g * length ** 2)
+
+    def value(p):
+        root = math.sqrt((r2 - s2) ** 2 + 4 / p ** 2)
+        alpha, beta = (math.sqrt((root - (r2 + s2)) / 2), math.sqrt((root + r2 + s2) / 2))
+        return (2 + (p ** 2 * (r2 - s2) ** 2 + 2) * math.cosh(p * alpha) * math.cos(p * beta)
+                - p * (r2 + s2) / math.sqrt(1 - p ** 2 * r2 * s2) * math.sinh(p * alpha) * math.sin(p * beta))
+
+    euler = 1.8751040687 ** 2
+    low, high = 0.9 * euler, 1.0001 * euler
+    while high - low > 1e-12:
+        middle = (low + high) / 2
+        low, high = (middle, high) if value(low) * value(middle) > 0 else (low, middle)
+    return low * math.sqrt(e * inertia / (rho * area)) / length ** 2 / (2 * math.pi)
+
+
 def mindlin_first_frequency(a, h, e, nu, rho):
     """First flexural frequency of a simply supported square plate with shear (factor 5/6) and rotary inertia (Mindlin 1951): deflection
     W sin kx sin ky, rotations X cos kx sin ky and X sin kx cos ky.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kardan/elements/geometry.hpp"
+#include "kardan/elements/solid/solid_shape.hpp"
 
 namespace kardan {
 
@@ -58,7 +59,7 @@ class PartTable {
   std::vector<PartProperties> entries_;
 };
 
-/// Adds equal shares of `mass` to the distinct nodes; returns the share.
+/// Adds equal shares of `mass` to the distinct nodes, `distinct` of them (1: all of it to each); returns the share.
 template <std::size_t N>
 double share_mass(std::vector<double>& nodal, const std::array<NodeIndex, N>& nodes, int distinct, double mass) {
   const double share = mass / distinct;
@@ -118,8 +119,10 @@ void add_solids(const Model& model, State& state, Diagnostics& diagnostics) {
       continue;
     }
     const double mass = std::abs(volume) * part.bulk.density;
-    share_mass(state.nodes.mass, nodes, distinct_nodes(nodes), mass);
-    if (!part.rigid) state.energy.part_mass[static_cast<std::size_t>(solids.part[e])] += mass;
+    const double share = share_mass(state.nodes.mass, nodes, distinct_nodes(nodes), mass);
+    if (part.rigid) continue;
+    state.energy.part_mass[static_cast<std::size_t>(solids.part[e])] += mass;
+    share_mass(state.nodes.inertia, nodes, 1, solid_inertia(model, e, share));
   }
 }
 
@@ -196,7 +199,8 @@ NodeShare node_share(const Model& model, ElementKind kind, Index element) {
   if (kind == ElementKind::solid) {
     const auto& nodes = model.solids.nodes[e];
     const int count = distinct_nodes(nodes);
-    return {std::abs(solid_volume(gather_coordinates(model.nodes.x, nodes), nodes)) * density / count, 0, count};
+    const double share = std::abs(solid_volume(gather_coordinates(model.nodes.x, nodes), nodes)) * density / count;
+    return {share, solid_inertia(model, e, share), count};
   }
   const auto& nodes = model.shells.nodes[e];
   const int count = is_triangle(nodes) ? 3 : 4;

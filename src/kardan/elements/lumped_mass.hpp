@@ -28,20 +28,20 @@ BeamLump beam_lump(const Model& model, Index beam, double density);
 
 /// What an element gives to each of its distinct nodes.
 struct NodeShare {
-  double mass = 0, inertia = 0;  ///< rotary inertia: of deformable shells and beams
+  double mass = 0, inertia = 0;  ///< rotary inertia: of deformable shells, beams and quadratic solids
   int nodes = 0;                 ///< distinct ones
 };
 /// Of a shell, solid or beam of a part that has section and material; as add_lumped_masses() does it.
 NodeShare node_share(const Model& model, ElementKind kind, Index element);
 
 /// Adds to state.nodes.mass the lumped mass of every shell, solid, beam, *ELEMENT_MASS and *ELEMENT_INERTIA, rigid or not,
-/// in equal shares to the element's distinct nodes; and to state.nodes.inertia the rotary inertia of deformable shells and beams.
+/// in equal shares to the element's distinct nodes; and to state.nodes.inertia the rotary inertia of deformable shells, beams and quadratic solids.
 /// Parts that cannot have a mass (no section, no material, no thickness) become errors.
 ///
 /// The rotary inertia of a shell node is m max(h^2/12, A/8) about every axis, m the node's share of the mass, h the thickness
 /// and A the area: the second term raises it so that bending does not govern the step.
 /// Source: Hughes, Cohen and Haroun 1978, Nucl. Eng. Des. 46, 203-222, as used by Hallquist, LS-DYNA Theory Manual 2006,
-/// "Hughes-Liu shell" (alpha_2 = V/(8h)) and for the Belytschko-Lin-Tsay shell alike. Elements of rigid parts get none:
+/// "Hughes-Liu shell" (alpha_2 = V/(8h)) and for the Belytschko-Lin-Tsay shell alike. Of quadratic solids: solid_inertia(). Elements of rigid parts get none:
 /// a rigid body's inertia is that of its nodal masses.
 void add_lumped_masses(const Model& model, State& state, Diagnostics& diagnostics);
 

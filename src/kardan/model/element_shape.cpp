@@ -12,20 +12,22 @@ constexpr std::array<std::array<double, 3>, 8> natural{{{-1, -1, -1}, {1, -1, -1
 
 }  // namespace
 
+double hexahedron_jacobian(const ElementCoordinates<8>& x, const std::array<double, 3>& at) {
+  const auto [r, s, t] = at;
+  Mat3 jacobian;  // row i: derivatives of x with respect to natural coordinate i
+  for (std::size_t a = 0; a < 8; ++a) {
+    const auto& n = natural[a];
+    jacobian[0] += x[a] * (0.125 * n[0] * (1 + s * n[1]) * (1 + t * n[2]));
+    jacobian[1] += x[a] * (0.125 * n[1] * (1 + r * n[0]) * (1 + t * n[2]));
+    jacobian[2] += x[a] * (0.125 * n[2] * (1 + r * n[0]) * (1 + s * n[1]));
+  }
+  return determinant(jacobian);
+}
+
 double hexahedron_volume(const ElementCoordinates<8>& x) {
   const double g = 1.0 / std::sqrt(3.0);
   double volume = 0;
-  for (const auto& point : natural) {
-    const double r = g * point[0], s = g * point[1], t = g * point[2];
-    Mat3 jacobian;  // row i: derivatives of x with respect to natural coordinate i
-    for (std::size_t a = 0; a < 8; ++a) {
-      const auto& n = natural[a];
-      jacobian[0] += x[a] * (0.125 * n[0] * (1 + s * n[1]) * (1 + t * n[2]));
-      jacobian[1] += x[a] * (0.125 * n[1] * (1 + r * n[0]) * (1 + t * n[2]));
-      jacobian[2] += x[a] * (0.125 * n[2] * (1 + r * n[0]) * (1 + s * n[1]));
-    }
-    volume += determinant(jacobian);
-  }
+  for (const auto& point : natural) volume += hexahedron_jacobian(x, {g * point[0], g * point[1], g * point[2]});
   return volume;
 }
 

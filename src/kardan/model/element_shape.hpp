@@ -33,6 +33,9 @@ inline double shell_area(const ElementCoordinates<4>& x) { return 0.5 * norm(cro
 inline constexpr std::array<std::array<std::size_t, 4>, 6> hexahedron_faces{
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
+/// Jacobian determinant of an eight-node hexahedron's trilinear map at natural coordinates r, s, t [length^3].
+double hexahedron_jacobian(const ElementCoordinates<8>& x, const std::array<double, 3>& at);
+
 /// Volume of an eight-node hexahedron with trilinear sides [length^3], negative if it is turned inside out: 2x2x2 Gauss
 /// points are exact, the Jacobian determinant being of degree two in each natural coordinate.
 double hexahedron_volume(const ElementCoordinates<8>& x);

@@ -3,9 +3,7 @@
 // Sources: Nagtegaal, Parks and Rice 1974, Comput. Meth. Appl. Mech. Eng. 4, 153-177 (mean dilatation); Hughes 1980, Int. J. Numer.
 // Meth. Eng. 15, 1413-1418 (B-bar); Hallquist, LS-DYNA Theory Manual 2006, "Solid elements" (selective reduced integration).
 //
-// At the Gauss points r, s, t = +-1/sqrt 3 a field of coefficients a_k (hexahedron_modes.hpp) has the derivatives
-//   a_r = a1 + s a4 + t a6 + st a7,   a_s = a2 + r a4 + t a5 + rt a7,   a_t = a3 + s a5 + r a6 + rs a7.
-// With c_r = x_s x x_t, c_s = x_t x x_r, c_t = x_r x x_s and J = x_r.c_r the velocity gradient is L = (v_r c_r^T + v_s c_s^T +
+// With c_r, c_s, c_t and J of natural_gradient.hpp at the Gauss points r, s, t = +-1/sqrt 3 the velocity gradient is L = (v_r c_r^T + v_s c_s^T +
 // v_t c_t^T)/J. Its divergence is replaced by the element's mean D = (8/V) sum v_a.B_a, which is dV/dt / V exactly:
 //   L-bar = L + (D - tr L)/3 I.
 // Virtual work then gives the forces: the deviators s' at the points on c_r, c_s, c_t, the mean p of the pressures on B,
@@ -14,29 +12,9 @@
 #pragma once
 
 #include "kardan/elements/solid/hexahedron_modes.hpp"
+#include "kardan/elements/solid/natural_gradient.hpp"
 
 namespace kardan::KARDAN_ISA_NAMESPACE {
-
-/// Derivatives of a field with respect to r, s, t at a point.
-template <class R>
-struct NaturalGradient {
-  Vec3T<R> r, s, t;
-
-  KARDAN_INLINE NaturalGradient(const Modes<R>& m, const R& pr, const R& ps, const R& pt)
-      : r(m.a[0] + m.a[3] * ps + m.a[5] * pt + m.a[6] * (ps * pt)),
-        s(m.a[1] + m.a[3] * pr + m.a[4] * pt + m.a[6] * (pr * pt)),
-        t(m.a[2] + m.a[4] * ps + m.a[5] * pr + m.a[6] * (pr * ps)) {}
-};
-
-/// c_r, c_s, c_t and J of the positions' derivatives.
-template <class R>
-struct Cofactors {
-  Vec3T<R> r, s, t;
-  R jacobian;
-
-  KARDAN_INLINE explicit Cofactors(const NaturalGradient<R>& x)
-      : r(cross(x.s, x.t)), s(cross(x.t, x.r)), t(cross(x.r, x.s)), jacobian(dot(x.r, r)) {}
-};
 
 /// The lanes of `place`; `history` begins with their values.
 template <class R, class Law>

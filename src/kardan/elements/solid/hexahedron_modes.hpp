@@ -97,15 +97,15 @@ KARDAN_INLINE R characteristic_length(const Vec3T<R> (&x)[8], const MeanGradient
   return g.volume / (R(0.5) * sqrt(max(largest, R(64.0) * folded)));
 }
 
-/// A pack of hexahedra at t_n and in the middle of the step.
-template <class R>
+/// A pack of hexahedra at t_n and in the middle of the step. Components: of the nodes' forces.
+template <class R, std::size_t Components = 3>
 struct HexahedronMotion {
   Modes<R> x, v, middle;        ///< positions at t_n, velocities, positions at t_{n-1/2}
   MeanGradient<R> now, between; ///< of x and of middle
   R length;                     ///< at t_n, for the stable step
 
   KARDAN_INLINE explicit HexahedronMotion(const PackPlace& place) {
-    const PackNodes<8> nodes(place);
+    const PackNodes<8, Components> nodes(place);
     x = to_modes(nodes.x);
     v = to_modes(nodes.v);
     now = mean_gradient(x);

@@ -14,8 +14,7 @@ namespace kardan {
 
 namespace {
 
-/// ELFORM of *SECTION_SOLID.
-constexpr int one_point = 1, selective = 2, slender = -1, slender_exact = -2, tetrahedra = 10, nodal_tetrahedra = 13, pentahedra = 15;
+using namespace solid_elform;
 
 /// -1 and -2 are 2 with a Jacobian that stiffens slender elements less, which LS-DYNA's makers have not published in full.
 constexpr bool selective_elform(int elform) { return elform == selective || elform == slender || elform == slender_exact; }
@@ -49,20 +48,9 @@ SolidProperties properties_of(const Model& model, const Part& part, SolidShape s
   return p;
 }
 
-/// Shape of a solid: four-node elements are tetrahedra whatever the formulation (the trilinear map would fill only half of them, and the
-/// gradients of all formulations are the same there); pentahedra stay hexahedra with repeated nodes unless they are to be sorted.
-SolidShape shape_of(const Model& model, std::size_t solid) {
-  const auto& nodes = model.solids.nodes[solid];
-  if (distinct_nodes(nodes) == 4) return SolidShape::tetrahedron;
-  const Index section = model.parts[at(model.solids.part[solid])].section;
-  const bool sorted = model.control.solid_esort == 1 ||
-                      (section != none && model.sections[at(section)].solid.elform == pentahedra);
-  return sorted && pentahedron_nodes(nodes) ? SolidShape::pentahedron : SolidShape::hexahedron;
-}
-
 TileElements cut(const Model& model, SolidShape shape) {
-  static constexpr const char* names[] = {"solids", "tetrahedra", "pentahedra"};
-  static constexpr std::size_t nodes_of[] = {8, 4, 6};
+  static constexpr const char* names[] = {"solids", "tetrahedra", "pentahedra", "quadratic solids"};
+  static constexpr std::size_t nodes_of[] = {8, 4, 6, 8}, components[] = {3, 3, 3, 6};
   const std::size_t count = nodes_of[static_cast<std::size_t>(shape)];
   std::vector<Index> elements;
   std::vector<NodeIndex> flat(model.solids.size() * count, 0);
@@ -72,24 +60,33 @@ TileElements cut(const Model& model, SolidShape shape) {
     elements.push_back(static_cast<Index>(e));
     const auto& nodes = model.solids.nodes[e];
     const auto put = [&](const auto& own) { std::copy(own.begin(), own.end(), flat.begin() + static_cast<std::ptrdiff_t>(e * count)); };
-    if (shape == SolidShape::hexahedron) put(nodes);
+    if (count == 8) put(nodes);
     if (shape == SolidShape::tetrahedron) put(*tetrahedron_nodes(nodes));
     if (shape == SolidShape::pentahedron) put(*pentahedron_nodes(nodes));
   }
   return TileElements({names[static_cast<std::size_t>(shape)], "solid", ElementKind::solid, model.solids.id,
-                       {elements, model.solids.part, flat, count, model.nodes.x}, 3},
+                       {elements, model.solids.part, flat, count, model.nodes.x}, components[static_cast<std::size_t>(shape)]},
                       model.nodes.size());
+}
+
+/// Own values of a quadratic hexahedron at t = 0.
+void start_quadratic(const ElementCoordinates<8>& x, double* own) {
+  own[quadratic_history::longest_edge_square * block_lanes] = longest_edge_square(x);
+  for (std::size_t i = 0; i < quadratic_point_count; ++i) {
+    const QuadraticPoint& q = quadratic_points[i];
+    own[(quadratic_history::jacobian + i) * block_lanes] = hexahedron_jacobian(x, {q.r, q.s, q.t});
+  }
 }
 
 }  // namespace
 
 SolidForces::SolidForces(const Model& model, State& state, Diagnostics& diagnostics)
     : shapes_{Shape{cut(model, SolidShape::hexahedron), {}}, Shape{cut(model, SolidShape::tetrahedron), {}},
-              Shape{cut(model, SolidShape::pentahedron), {}}},
+              Shape{cut(model, SolidShape::pentahedron), {}}, Shape{cut(model, SolidShape::quadratic), {}}},
       laws_(model.parts.size()),
       nodal_pressure_(model.parts.size(), 0) {
   bool good = true, any = false, deletable = false;
-  for (const SolidShape shape : {SolidShape::hexahedron, SolidShape::tetrahedron, SolidShape::pentahedron}) {
+  for (const SolidShape shape : solid_shapes) {
     Shape& own = shapes_[static_cast<std::size_t>(shape)];
     own.formulation.resize(model.parts.size());
     any = any || !own.elements.empty();
@@ -119,6 +116,7 @@ void SolidForces::start_histories(const Model& model, Shape& shape) {
     own[solid_history::volume * block_lanes] = volume;
     own[solid_history::inverse_size * block_lanes] = 1 / std::cbrt(volume);
     if (&f == &one_point_tetrahedron) own[solid_history::own * block_lanes] = 1;  // volume ratio of the nodes
+    if (&f == &quadratic_hexahedron) start_quadratic(gather_coordinates(model.nodes.x, nodes), own + solid_history::own * block_lanes);
     const std::vector<double>& start = laws_[at(part)].start;
     for (std::size_t p = 0; p < f.points; ++p) {
       const std::size_t law = solid_history::stress(f.own_values, start.size(), p) + 6;
@@ -137,9 +135,11 @@ const SolidFormulation* SolidForces::formulation_of(SolidShape shape, int elform
     case SolidShape::hexahedron:
       return elform == one_point ? &one_point_hexahedron : selective_elform(elform) ? &full_hexahedron : nullptr;
     case SolidShape::tetrahedron:
-      return elform == pentahedra && esort != 1 ? nullptr : &one_point_tetrahedron;
+      return elform == quadratic || (elform == pentahedra && esort != 1) ? nullptr : &one_point_tetrahedron;
     case SolidShape::pentahedron:
       return elform == tetrahedra || elform == nodal_tetrahedra ? nullptr : &two_point_pentahedron;
+    case SolidShape::quadratic:
+      return &quadratic_hexahedron;
   }
   return nullptr;
 }
@@ -163,12 +163,12 @@ bool SolidForces::set_up_part(const Model& model, SolidShape shape, PartIndex p,
   }
   const int elform = section.solid.elform;
   const std::string name = "ELFORM = " + std::to_string(elform) + " (section " + std::to_string(section.id) + ")";
-  static constexpr const char* shapes[] = {"hexahedra, or wedges that are not sorted (ESORT)", "tetrahedra", "pentahedra"};
-  if (elform != one_point && !selective_elform(elform) && elform != tetrahedra && elform != nodal_tetrahedra &&
+  static constexpr const char* shapes[] = {"hexahedra, or wedges that are not sorted (ESORT)", "tetrahedra", "pentahedra", "quadratic"};
+  if (elform != one_point && !selective_elform(elform) && elform != quadratic && elform != tetrahedra && elform != nodal_tetrahedra &&
       elform != pentahedra) {
-    refuse(name, "use ELFORM = 1 or 2, 10 or 13 for tetrahedra, 15 for pentahedra", "*SECTION_SOLID");
+    refuse(name, "use ELFORM = 1, 2 or 3, 10 or 13 for tetrahedra, 15 for pentahedra", "*SECTION_SOLID");
   } else if (!formulation_of(shape, elform, model.control.solid_esort)) {
-    refuse(name + " that are " + shapes[static_cast<int>(shape)], "give ELFORM 10 and 13 four nodes, ELFORM 15 six, or use ELFORM = 1",
+    refuse(name + " that are " + shapes[static_cast<int>(shape)], "give ELFORM 10 and 13 four nodes, ELFORM 15 six, ELFORM 3 more than four, or use ELFORM = 1",
            "*SECTION_SOLID");
   }
   if (const int type = hourglass_of(model, part).type; type < 1 || type > 6) {
@@ -249,10 +249,10 @@ void SolidForces::report(SolidResults& results) const {
       const SolidFormulation& f = *shape.formulation[at(part)];
       const Law& law = laws_[at(part)];
       const bool alive = shape.elements.alive(solid) > 0;
-      const double share = 1.0 / static_cast<double>(f.points);
       StressVector stress{};
       double strain = 0;
       for (std::size_t p = 0; p < f.points; ++p) {
+        const double share = f.share(p);
         const double* point = own + solid_history::stress(f.own_values, law.history(), p) * block_lanes;
         for (std::size_t c = 0; c < 6; ++c) stress[c] += share * point[c * block_lanes];
         if (law.plastic_strain != Law::npos) strain += share * point[(6 + law.plastic_strain) * block_lanes];

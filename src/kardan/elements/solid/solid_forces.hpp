@@ -49,7 +49,7 @@ class SolidForces {
   static const SolidFormulation* formulation_of(SolidShape shape, int elform, int esort);
   void start_histories(const Model& model, Shape& shape);
 
-  std::array<Shape, 3> shapes_;             ///< by SolidShape
+  std::array<Shape, solid_shapes.size()> shapes_;             ///< by SolidShape
   std::vector<Law> laws_;                   ///< by part of the model
   std::vector<std::uint8_t> nodal_pressure_; ///< likewise: tetrahedra ELFORM 13
   NodalVolumes nodal_volumes_;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "kardan/elements/solid/quadratic_points.hpp"
 #include "kardan/elements/tiles/tile_work.hpp"
 
 namespace kardan {
@@ -35,12 +36,21 @@ constexpr std::size_t stress(std::size_t own_values, std::size_t law_values, std
 }
 }  // namespace solid_history
 
+/// The own values of the quadratic hexahedron: square of the longest edge at t = 0; Jacobians of the points at t = 0.
+namespace quadratic_history {
+inline constexpr std::size_t longest_edge_square = 0, jacobian = 1, count = 1 + quadratic_point_count;
+}  // namespace quadratic_history
+
 /// One formulation: how its elements are stored and computed.
 struct SolidFormulation {
   std::size_t nodes = 0, points = 0;
   std::size_t own_values = 0;                ///< in the history, beside what all have
   const TileKernels& (*kernels)() = nullptr; ///< for kernel_level() (base/isa.hpp)
 
+  /// Share of a point in the element's mean stress.
+  double (*share_of_point)(std::size_t point) = nullptr;  ///< null: all alike
+
+  double share(std::size_t point) const { return share_of_point ? share_of_point(point) : 1.0 / static_cast<double>(points); }
   std::size_t history_size(std::size_t law_values) const { return solid_history::stress(own_values, law_values, points); }
 };
 
@@ -48,6 +58,8 @@ struct SolidFormulation {
 extern const SolidFormulation one_point_hexahedron;
 /// ELFORM 2: eight points, mean volume change.
 extern const SolidFormulation full_hexahedron;
+/// ELFORM 3: fourteen points, nodes that turn; own values: quadratic_history.
+extern const SolidFormulation quadratic_hexahedron;
 /// ELFORM 10 and 13: one point; own value: mean volume ratio of the nodes at t_n (13).
 extern const SolidFormulation one_point_tetrahedron;
 /// ELFORM 15: two points; own value: moment of the twist.

@@ -17,9 +17,9 @@
 namespace kardan::KARDAN_ISA_NAMESPACE {
 
 /// What a block's elements report and give to their nodes.
-template <std::size_t Nodes>
+template <std::size_t Nodes, std::size_t Components = 3>
 struct SolidBlock : BlockReport {
-  NodalForces<Nodes, 3> force;
+  NodalForces<Nodes, Components> force;
 };
 
 /// What a pack is given beside its properties and law: the tile, the block's connectivity, and which lanes of the block it has.
@@ -29,19 +29,27 @@ struct PackPlace {
   std::size_t first;
 };
 
-/// Positions at t_n and velocities of the nodes of a pack.
-template <std::size_t Nodes>
+/// Positions at t_n and velocities of the nodes of a pack. Components: of the nodes' forces.
+template <std::size_t Nodes, std::size_t Components = 3>
 struct PackNodes {
   Vec3T<Pack> x[Nodes], v[Nodes];
 
   KARDAN_INLINE explicit PackNodes(const PackPlace& place) {
     for (std::size_t a = 0; a < Nodes; ++a) {
       const std::uint16_t* index = place.connectivity + a * block_lanes + place.first;
-      x[a] = gather_vectors<node_stride(3)>(place.work.node, index);
-      v[a] = gather_vectors<node_stride(3)>(place.work.node + 4, index);
+      x[a] = gather_vectors<node_stride(Components)>(place.work.node, index);
+      v[a] = gather_vectors<node_stride(Components)>(place.work.node + 4, index);
     }
   }
 };
+
+/// Angular velocities of the nodes of a pack, of elements whose nodes turn.
+template <std::size_t Nodes>
+KARDAN_INLINE void gather_spins(const PackPlace& place, Vec3T<Pack> (&omega)[Nodes]) {
+  for (std::size_t a = 0; a < Nodes; ++a) {
+    omega[a] = gather_vectors<node_stride(6)>(place.work.node + 8, place.connectivity + a * block_lanes + place.first);
+  }
+}
 
 /// The value that node `a` carries behind its position (TileElements::node_values()).
 KARDAN_INLINE Pack gather_node_value(const PackPlace& place, std::size_t a) {
@@ -169,11 +177,11 @@ KARDAN_INLINE R stable_step(const SolidProperties& p, const R& length, const R& 
   return select(good, length / (damping + sqrt(damping * damping + c * c)), -R(1.0));
 }
 
-/// Forces, energies and life of a pack of elements into the block. An element that died, now or before, gives nothing. `failed`: how many
-/// of its points have.
-template <std::size_t Nodes, class R, class Mask>
-KARDAN_INLINE void report_pack(const SolidProperties& p, SolidBlock<Nodes>& block, std::size_t first, const Vec3T<R> (&force)[Nodes],
-                               const R& internal, const R& hourglass, const R& failed, const Mask& good) {
+/// Energies and life of a pack of elements into the block. An element that died, now or before, gives nothing. `failed`: how many of its
+/// points have.
+template <class R, class Mask>
+KARDAN_INLINE void report_life(const SolidProperties& p, BlockReport& block, std::size_t first, const R& internal, const R& hourglass,
+                               const R& failed, const Mask& good) {
   const R zero(0.0), one(1.0);
   const auto alive_before = R::load(block.alive + first) > zero;
   R intact = select(alive_before & (failed < R(p.failing_points - 0.5)), one, zero);
@@ -185,18 +193,25 @@ KARDAN_INLINE void report_pack(const SolidProperties& p, SolidBlock<Nodes>& bloc
   intact.store(block.alive + first);
   select(counted > zero, internal, zero).store(block.internal + first);
   select(counted > zero, hourglass, zero).store(block.hourglass + first);
+}
+
+/// Likewise with the forces on nodes that do not turn.
+template <std::size_t Nodes, class R, class Mask>
+KARDAN_INLINE void report_pack(const SolidProperties& p, SolidBlock<Nodes>& block, std::size_t first, const Vec3T<R> (&force)[Nodes],
+                               const R& internal, const R& hourglass, const R& failed, const Mask& good) {
+  report_life(p, block, first, internal, hourglass, failed, good);
   for (std::size_t a = 0; a < Nodes; ++a) block.force.set(a, first, force[a]);  // scatter() leaves out those that are not alive
 }
 
 /// A tile of a formulation whose pack is computed by `pack(properties, law, place, block, history)`. The sizes are those of its
 /// SolidFormulation.
-template <std::size_t Nodes, std::size_t Points, std::size_t OwnValues, class Law, class F>
+template <std::size_t Nodes, std::size_t Points, std::size_t OwnValues, class Law, std::size_t Components = 3, class F>
 KARDAN_INLINE void solid_tile(TileWork& work, F&& pack) {
   const SolidProperties& p = *static_cast<const SolidProperties*>(work.properties);
   const Law law(p.law);
-  SolidBlock<Nodes> block;
+  SolidBlock<Nodes, Components> block;
   const std::size_t values = solid_history::own + OwnValues + Points * (6 + law.history());
-  for_each_block<Nodes>(work, 3, values, block, [&](const std::uint16_t* connectivity, std::size_t, double* history) {
+  for_each_block<Nodes>(work, Components, values, block, [&](const std::uint16_t* connectivity, std::size_t, double* history) {
     for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) pack(p, law, PackPlace{work, connectivity, l}, block, history + l);
     block.force.scatter(connectivity, block.alive, work.force);
   });

@@ -41,4 +41,27 @@ std::optional<std::array<NodeIndex, 6>> pentahedron_nodes(const std::array<NodeI
   return std::nullopt;
 }
 
+SolidShape shape_of(const Model& model, std::size_t solid) {
+  const auto& nodes = model.solids.nodes[solid];
+  if (distinct_nodes(nodes) == 4) return SolidShape::tetrahedron;
+  const Index section = model.parts[static_cast<std::size_t>(model.solids.part[solid])].section;
+  const int elform = section == none ? solid_elform::one_point : model.sections[static_cast<std::size_t>(section)].solid.elform;
+  const bool sorted = model.control.solid_esort == 1 || elform == solid_elform::pentahedra;
+  if (sorted && pentahedron_nodes(nodes)) return SolidShape::pentahedron;
+  return elform == solid_elform::quadratic ? SolidShape::quadratic : SolidShape::hexahedron;
+}
+
+double longest_edge_square(const ElementCoordinates<8>& x) {
+  double longest = 0;
+  for (std::size_t a = 0; a < 4; ++a) {
+    for (const Vec3& edge : {x[(a + 1) % 4] - x[a], x[4 + (a + 1) % 4] - x[4 + a], x[4 + a] - x[a]}) longest = std::max(longest, dot(edge, edge));
+  }
+  return longest;
+}
+
+double solid_inertia(const Model& model, std::size_t solid, double mass) {
+  if (shape_of(model, solid) != SolidShape::quadratic) return 0;
+  return mass * longest_edge_square(gather_coordinates(model.nodes.x, model.solids.nodes[solid])) / 8;
+}
+
 }  // namespace kardan
