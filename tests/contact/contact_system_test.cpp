@@ -128,6 +128,8 @@ TEST(Contacts, ReportForcesOfNodes) {
   double area = 0;
   for (const double a : report.nodal_area[0]) area += a;
   EXPECT_NEAR(area, 0.08 * 0.08, 1e-5);
+  EXPECT_EQ(report.segments[0].size(), 16u);  // each once
+  EXPECT_EQ(report.segments[1].size(), 16u);
 }
 
 }  // namespace

@@ -63,6 +63,41 @@ TEST_P(Rebound, KeepsMomentumAndEnergy) {
   EXPECT_GT(test::momentum(s, split, m.node_count()).z / mass_up, test::momentum(s, 0, split).z / mass_low);
 }
 
+/// Meshes one element thick, all of their nodes in the same two planes (but for rounding): each node of one body lies in the plane of a face of the other,
+/// and they meet nevertheless, by whichever contact, in whichever material, momentum and energy kept.
+TEST(Impact, BodiesWithFlushSidesMeetInTheirPlane) {
+  for (const bool rigid : {false, true})
+    for (const double rounding : {0.0, 1e-16, -1e-16, 1e-9})
+      for (const bool single : {false, true}) {
+        SCOPED_TRACE(testing::Message() << "rigid " << rigid << ", rounding " << rounding << ", single " << single);
+        test::Meshes m;
+        const PartIndex lower = m.solid_part(steel), upper = m.solid_part(steel);
+        if (rigid) m.model.materials.back().law = rigid_steel;
+        m.block(lower, {8, 2, 1}, {0, 0, 0}, {0.08, 0.02, 0.01});
+        const NodeIndex split = m.node_count();
+        m.block(upper, {3, 2, 1}, {0.023, 0.0201, rounding}, {0.03, 0.02, 0.01});
+        m.throw_from(split, m.node_count(), {0, -5, 0});
+        if (single) m.single_surface({lower, upper});
+        else m.surface_to_surface({lower}, {upper});
+        m.model.control.hourglass_type = 4;
+        m.model.control.time_step.scale = 0.4;
+        m.model.control.termination.end_time = 2.5e-4;
+        Diagnostics diagnostics;
+        Solver solver(m.model, {}, diagnostics);
+        test::Watch watch;
+        solver.attach(watch);
+        ASSERT_EQ(solver.run(), StopReason::end_time);
+        const State& s = solver.state();
+        EXPECT_LT(watch.momentum_error, 1e-12 * watch.scale);
+        EXPECT_LT(watch.energy_error, 0.01 * watch.energy);
+        EXPECT_LT(std::abs(watch.sliding_when_free), 0.01 * watch.energy);
+        double top = 0, bottom = 1;
+        for (NodeIndex n = 0; n < m.node_count(); ++n) n < split ? top = std::max(top, s.nodes.x[n].y) : bottom = std::min(bottom, s.nodes.x[n].y);
+        EXPECT_GT(bottom, top - 1e-5);
+        EXPECT_LT(test::momentum(s, 0, split).y, -0.3 * watch.scale);
+      }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Pairs, Rebound,
     testing::Values(Pairing{"solids", true, false, true, false}, Pairing{"solid_on_shells", false, false, true, false},

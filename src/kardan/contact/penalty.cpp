@@ -139,7 +139,6 @@ void PenaltyContact::size_report(State& state) const {
     }
     for (const Segment& s : surfaces_[side].segments()) report.segments[side].push_back(s.nodes);
     report.nodal_force[side].assign(report.nodes[side].size(), Vec3{});
-    for (const Segment& s : surfaces_[side].segments()) report.segments[side].push_back(s.nodes);
   }
 }
 

@@ -10,6 +10,8 @@ namespace {
 constexpr double same = 1e-9;            ///< distances closer than this part of the segment's size are one closest point
 constexpr double apart = 0.5, together = 0.766;  ///< cosines: two touches of full force, one touch
 constexpr double explained_steps = 1.5;  ///< steps of the last relative motion that explain a new penetration
+constexpr double flush = 1e-3;           ///< part of a face's size by which a node of its plane may be in front of it: rounding, and sides that bulge
+constexpr double facing = -0.2, alike = 0.7;  ///< cosines of normals: faces that look at one another, faces that look the same way
 
 bool has(const Segment& s, NodeIndex n) { return s.nodes[0] == n || s.nodes[1] == n || s.nodes[2] == n || s.nodes[3] == n; }
 
@@ -76,6 +78,34 @@ bool TouchFinder::look(const TouchFrame& frame, const Vec3& x, double half_thick
   p.share = 1;
   p.offset = 0;
   return true;
+}
+
+void TouchFinder::find_own_normals(const TouchFrame& frame, Index node) {
+  own_of_ = node;
+  own_.clear();
+  const std::vector<Vec3>& x = *frame.x;
+  for (const Index i : nodes_->segments_at(node)) {
+    const Segment& s = nodes_->segments()[i];
+    if (s.kind != ElementKind::solid || !s.one_sided) return own_.clear();
+    const auto& n = s.nodes;  // half the product of the diagonals, for triangles, too
+    const Vec3 area = cross(x[n[2]] - x[n[0]], x[n[3]] - x[n[1]]);
+    const double length = norm(area);
+    own_.push_back(length > 0 ? area * (1 / length) : Vec3{});
+  }
+}
+
+/// The node (its place in the surface) is behind a face that it cannot have come through: see the head of touch_finder.hpp.
+bool TouchFinder::averted(const TouchFrame& frame, Index node, const Place& p) {
+  const Segment& s = segment(p);
+  if (s.kind != ElementKind::solid || !s.one_sided || p.side > flush * std::sqrt(s.area)) return false;
+  if (own_of_ != node) find_own_normals(frame, node);
+  double least = 1, most = -1;
+  for (const Vec3& n : own_) {
+    const double cosine = dot(n, p.closest.normal);
+    least = std::min(least, cosine);
+    most = std::max(most, cosine);
+  }
+  return !own_.empty() && least > facing && most > alike;
 }
 
 void TouchFinder::find_minima() {
@@ -271,11 +301,12 @@ void TouchFinder::find(const TouchFrame& frame, Index place, std::span<const Ind
   const SurfaceNode& node = nodes_->nodes()[place];
   const Vec3& x = (*frame.x)[node.node];
   const bool all = one_sided_ && !memory.empty();
+  own_of_ = none;
   std::size_t count = 0;
   for (std::size_t c = 0; c < near.size(); ++c) {
     if (wake[c] > frame.travel && !all) continue;
     if (places_.size() == count) places_.emplace_back();
-    if (look(frame, x, node.half_thickness, near[c], wake[c], memory, places_[count])) ++count;
+    if (look(frame, x, node.half_thickness, near[c], wake[c], memory, places_[count]) && !averted(frame, place, places_[count])) ++count;
   }
   places_.resize(count);
   if (count == 0) return;

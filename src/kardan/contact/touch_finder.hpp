@@ -14,6 +14,10 @@
 // A node is taken to be inside a one-sided surface only if its last motion can have taken it there, or if it was in touch there or next to it; of a
 // connected surface the nearest place counts. What a new touch penetrates beyond what the motion explains becomes its offset, which gives no force and
 // can only shrink, unless the geometry jumps: no touch makes energy out of nothing.
+//
+// Solids face one another where they touch. A face that a node is behind, and that none of the node's own faces looks at while one looks the same way, is no
+// way in: the node came past its border. Where two bodies are flush (meshes one element thick, all of their nodes in two planes), the nearest place of every
+// node would else be such a face, at no depth, and nothing would stop the bodies in their common plane.
 #pragma once
 
 #include <cstdint>
@@ -68,6 +72,8 @@ class TouchFinder {
   bool look(const TouchFrame& frame, const Vec3& x, double half_thickness, Index segment, double& wake, std::span<const Touch> memory,
             Place& place) const;
   bool came_through(const Vec3& u, const Segment& segment, std::span<const Touch> memory) const;
+  bool averted(const TouchFrame& frame, Index node, const Place& place);
+  void find_own_normals(const TouchFrame& frame, Index node);
   void find_minima();
   void recall(const TouchFrame& frame, std::span<const Touch> memory);
   int side_across(const TouchFrame& frame, const Touch& from, const Segment& to) const;
@@ -85,6 +91,8 @@ class TouchFinder {
   bool one_sided_ = false;  ///< some segments are
   std::vector<Place> places_;
   std::vector<std::size_t> order_;
+  Index own_of_ = none;     ///< place of the node whose faces' normals are in own_
+  std::vector<Vec3> own_;   ///< outward unit normals; empty if the node is not of solids alone
 };
 
 }  // namespace kardan
