@@ -194,6 +194,71 @@ TEST(Interpolation, WeightsGiveTheMeanAndTheForceIsShared) {
   EXPECT_NEAR(b.state.nodes.v[2].z, 0, 1e-9);  // the dependent node stands on the line of the two others
 }
 
+/// Along the local x, at 30 degrees to the global one, the dependent node follows; across it flies on.
+TEST(Interpolation, LocalAxesOfTheDependentNode) {
+  Bench b;
+  for (const Vec3& x : {Vec3{1, 0, 0}, Vec3{-1, 1, 0}, Vec3{-1, -1, 0}, Vec3{0.2, 0.1, 0.3}}) b.node(x);
+  const double c = std::cos(0.5), s = std::sin(0.5);
+  Frame frame;
+  frame.axes = Mat3::columns({c, s, 0}, {-s, c, 0}, {0, 0, 1});
+  b.model.frames.push_back(frame);
+  Interpolation tie;
+  tie.dependent = 3;
+  tie.dofs = dof_x;
+  tie.frame = 0;
+  tie.nodes = {0, 1, 2};
+  tie.weight = {1, 1, 1};
+  tie.asks_rotations = true;
+  b.model.interpolations.push_back(tie);
+  b.size_state(1.0);
+  LoadSystem loads(b.model, b.state, b.diagnostics);
+  ASSERT_TRUE(b.diagnostics.ok());
+  EXPECT_EQ(b.diagnostics.warning_count(), 1u) << "the nodes have rotary inertia, and IDOF 456 takes no part";
+  b.state.nodes.v[3] = {1, 2, 3};
+  b.state.clock.dt = 1e-9;
+  loads.constrain_velocities(b.model, b.state);
+  const auto& v = b.state.nodes.v;
+  const Vec3 along{c, s, 0}, across{-s, c, 0};
+  // The motion of the three at the place of the fourth: V + W x d; here from the momentum balance.
+  EXPECT_NEAR(dot(v[3], across), -s + 2 * c, 1e-12);
+  EXPECT_NEAR(v[3].z, 3, 1e-12);
+  EXPECT_NEAR(dot(v[0] + v[1] + v[2] + v[3], along), c + 2 * s, 1e-12);
+  EXPECT_LT(dot(v[3], along), 0.9 * (c + 2 * s));
+}
+
+/// A weld of two masses that are pulled apart: axial and shear force of half the difference, until it breaks; then none.
+TEST(Weld, ReportsItsForcesForSwforc) {
+  Bench b;
+  b.node({0, 0, 0}), b.node({0, 0, 0.5});
+  RigidGroup weld;
+  weld.name = "weld 7";
+  weld.weld = RigidGroup::Weld::spot;
+  weld.weld_id = 7;
+  weld.nodes = {0, 1};
+  weld.failure = RigidGroup::Failure{100, 0, 2, 2};
+  b.model.rigid_groups = {weld};
+  b.size_state(2.0, 0.0);
+  LoadSystem loads(b.model, b.state, b.diagnostics);
+  ASSERT_TRUE(b.diagnostics.ok());
+  ASSERT_EQ(b.state.welds.size(), 1u);
+  const WeldReport& report = b.state.welds[0];
+  EXPECT_EQ(report.id, 7);
+  b.state.nodes.inertia = {1.0, 1.0};
+  b.step(loads, 1e-3, [](State& s) { s.nodes.force[1] = {0, 0, 60}; });
+  EXPECT_NEAR(report.axial, 30, 1e-9);
+  EXPECT_NEAR(report.shear, 0, 1e-9);
+  EXPECT_EQ(report.length, 0.5);
+  b.step(loads, 1e-3, [](State& s) { s.nodes.force[0] = s.nodes.force[1] = {40, 0, 0}; });
+  EXPECT_NEAR(report.axial, 0, 1e-9);
+  EXPECT_FALSE(report.failed);
+  b.step(loads, 1e-3, [](State& s) { s.nodes.force[1] = {0, 0, 300}; });
+  EXPECT_TRUE(report.failed);
+  EXPECT_NEAR(report.axial, 150, 1e-9);
+  EXPECT_NEAR(report.failure_time, 2e-3, 1e-12);
+  b.step(loads, 1e-3, [](State& s) { s.nodes.force[1] = {0, 0, 300}; });
+  EXPECT_EQ(report.axial, 0);
+}
+
 TEST(Ties, RefuseNodesThatAreHeldOrTiedTwice) {
   Bench b = five_nodes(0.1);
   b.model.nodes.constrained[0] = dof_x;

@@ -171,6 +171,7 @@ void ElementSystem::account(const Model& model, State& state) {
   impl_->discrete_beams.add_energies(model, energy.part_internal);
   impl_->beams.report(state, state.results.beam);
   impl_->discrete_beams.report(state.results.beam);
+  impl_->beams.report_welds(state);
   impl_->sections->report(model, state);
   energy.eroded_internal = impl_->shells.eroded_energy() + impl_->solids.eroded_energy() + impl_->beams.elements().eroded_energy();
   state.results.deleted_shells = impl_->shells.deleted();

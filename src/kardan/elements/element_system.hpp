@@ -33,7 +33,7 @@ class ElementSystem {
 
   /// Right after internal_forces(): mass scaling (mass_scaling.hpp). @return nodes whose mass or rotary inertia has changed, with repeats
   const std::vector<NodeIndex>& scale_masses(const Model& model, State& state);
-  /// From now on solids whose stable step (without TSSFAC) is below `step` are deleted where *CONTROL_TIMESTEP ERODE asks for it.
+  /// From now on elements whose stable step (without TSSFAC) is below `step` are deleted where *CONTROL_TIMESTEP ERODE asks for it.
   void erode_below(double step);
 
   /// Shells, solids and beams deleted so far, and whether an element of the model is left.

@@ -79,21 +79,42 @@ Vec3 angular_velocity(const NodeState& nodes, const std::vector<NodeIndex>& memb
   return w;
 }
 
-bool fails(const RigidGroup::Failure& limit, const Vec3& force, const Vec3& line) {
-  const double normal = dot(force, line);
-  const double shear = norm(force - line * normal);
-  double sum = 0;
-  if (limit.normal > 0 && normal > 0) sum += std::pow(normal / limit.normal, limit.normal_exponent);
-  if (limit.shear > 0) sum += std::pow(shear / limit.shear, limit.shear_exponent);
-  return sum >= 1;
+/// Force of a weld on its first node: along the line to the second, tension positive, and across it.
+struct WeldForce {
+  double normal, shear;
+
+  WeldForce(const Vec3& force, const Vec3& line) {
+    const double length = norm(line);
+    const Vec3 along = length > 0 ? line / length : Vec3{};
+    normal = dot(force, along);
+    shear = norm(force - along * normal);
+  }
+  bool breaks(const RigidGroup::Failure& limit) const {
+    double sum = 0;
+    if (limit.normal > 0 && normal > 0) sum += std::pow(normal / limit.normal, limit.normal_exponent);
+    if (limit.shear > 0) sum += std::pow(shear / limit.shear, limit.shear_exponent);
+    return sum >= 1;
+  }
+};
+
+void let_go(WeldReport& weld, double time) {
+  if (!weld.failed) weld.failure_time = time;
+  weld.failed = true;
 }
 
 }  // namespace
 
 RigidGroups::RigidGroups(const Model& model, State& state, TakenDofs& taken, Diagnostics& diagnostics)
-    : broken_(model.rigid_groups.size(), 0) {
+    : broken_(model.rigid_groups.size(), 0), report_(model.rigid_groups.size(), none) {
   constexpr const char* keyword = "*CONSTRAINED_…WELD, *DEFORMABLE_TO_RIGID";
-  for (const RigidGroup& group : model.rigid_groups) {
+  for (std::size_t i = 0; i < model.rigid_groups.size(); ++i) {
+    const RigidGroup& group = model.rigid_groups[i];
+    if (group.weld != RigidGroup::Weld::no && group.nodes.size() == 2) {
+      report_[i] = static_cast<Index>(state.welds.size());
+      WeldReport& weld = state.welds.emplace_back();
+      weld.kind = group.weld == RigidGroup::Weld::spot ? WeldReport::Kind::constrained : WeldReport::Kind::generalized;
+      weld.id = group.weld_id;
+    }
     for (const NodeIndex n : group.nodes) taken.take(model, state, n, dof_all, group.name, keyword, diagnostics);
     if (group.failure && state.nodes.x[group.nodes[0]] == state.nodes.x[group.nodes[1]])
       diagnostics.error(group.name + " may fail but its nodes stand at one place: there is no normal",
@@ -107,7 +128,14 @@ void RigidGroups::impose(const Model& model, State& state) {
   const double time = state.clock.time, dt = state.clock.dt, kick = state.clock.kick();
   for (std::size_t i = 0; i < broken_.size(); ++i) {
     const RigidGroup& group = model.rigid_groups[i];
-    if (broken_[i] || time < group.birth || time >= group.death) continue;
+    if (time < group.birth) continue;
+    if (broken_[i] || time >= group.death) {
+      if (report_[i] == none) continue;
+      WeldReport& weld = state.welds[static_cast<std::size_t>(report_[i])];
+      weld.axial = weld.shear = 0;  // the force that broke it was reported with the kick that did
+      let_go(weld, group.death);
+      continue;
+    }
     const GroupMotion motion(nodes, group.nodes);
     const Vec3 w = angular_velocity(nodes, group.nodes, motion, dt);
     const NodeIndex first = group.nodes.front();
@@ -116,10 +144,18 @@ void RigidGroups::impose(const Model& model, State& state) {
       nodes.v[n] = motion.velocity + cross(w, middle_arm(nodes.x[n] - motion.center, w * (0.5 * dt)));
       nodes.omega[n] = w;
     }
-    if (!group.failure || kick <= 0) continue;
-    const Vec3 force = (nodes.v[first] - v_first) * (nodes.mass[first] / kick);
-    if (!fails(*group.failure, force, normalized(nodes.x[group.nodes[1]] - nodes.x[first]))) continue;
+    if ((!group.failure && report_[i] == none) || kick <= 0) continue;
+    const Vec3 line = nodes.x[group.nodes[1]] - nodes.x[first];
+    const WeldForce force((nodes.v[first] - v_first) * (nodes.mass[first] / kick), line);
+    if (report_[i] != none) {
+      WeldReport& weld = state.welds[static_cast<std::size_t>(report_[i])];
+      weld.axial = force.normal;
+      weld.shear = force.shear;
+      weld.length = norm(line);
+    }
+    if (!group.failure || !force.breaks(*group.failure)) continue;
     broken_[i] = 1;
+    if (report_[i] != none) let_go(state.welds[static_cast<std::size_t>(report_[i])], time);
     spdlog::info("{} fails at t = {:.6g}", group.name, time);
   }
 }

@@ -21,6 +21,7 @@ class RigidGroups {
 
  private:
   std::vector<std::uint8_t> broken_;  ///< by group
+  std::vector<Index> report_;         ///< by group: into state.welds; none = not reported
 };
 
 }  // namespace kardan

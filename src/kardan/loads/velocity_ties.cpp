@@ -24,12 +24,6 @@ namespace {
 
 constexpr int most_sweeps = 20;  ///< to find the middle of the step: each gains a factor of half the step's turn
 
-Vec3 unit(std::size_t axis) {
-  Vec3 e;
-  e[axis] = 1;
-  return e;
-}
-
 /// Solves a x = b (n x n, rows first) by elimination with complete pivoting; unknowns without a pivot stay zero.
 std::vector<double> solve(std::vector<double> a, std::vector<double> b) {
   const std::size_t n = b.size();
@@ -158,12 +152,20 @@ VelocityTies::VelocityTies(const Model& model, State& state, TakenDofs& taken, D
   for (std::size_t i = 0; i < model.interpolations.size(); ++i) {
     const Interpolation& tie = model.interpolations[i];
     const std::string name = "interpolation " + std::to_string(tie.id);
-    taken.take(model, state, tie.dependent, tie.dofs, name, "*CONSTRAINED_INTERPOLATION", diagnostics);
+    need_frame(model, state, tie.frame);
+    // In local axes a translation takes part of all three.
+    const auto in_global = [&](std::uint8_t all) { return (tie.dofs & all) == 0 || tie.frame == none ? tie.dofs & all : all; };
+    const auto dofs = static_cast<std::uint8_t>(in_global(dof_translations) | in_global(dof_rotations));
+    taken.take(model, state, tie.dependent, dofs, name, "*CONSTRAINED_INTERPOLATION", diagnostics);
     std::vector<Vec3> x;
     for (const NodeIndex n : tie.nodes) {
       refuse_held(n, dof_translations, name, "*CONSTRAINED_INTERPOLATION");
       x.push_back(state.nodes.x[n]);
     }
+    const auto turns = [&](NodeIndex n) { return state.nodes.inertia[n] > 0; };
+    if (tie.asks_rotations && std::any_of(tie.nodes.begin(), tie.nodes.end(), turns))
+      diagnostics.warning(name + ": the rotations of independent nodes (IDOF 456) take no part; the motion is that of their translations",
+                          "give IDOF = 123 where that is meant", "*CONSTRAINED_INTERPOLATION");
     if (Fit(tie.weight, x).flat())
       diagnostics.error("the independent nodes of " + name + " stand on one line: the rotation about it is not determined",
                         "add a node off the line", "*CONSTRAINED_INTERPOLATION");
@@ -198,7 +200,7 @@ void VelocityTies::add_equations(const Model& model, const State& state, const C
   }
 }
 
-void VelocityTies::add_interpolations(const Model& model, const Cluster& cluster, const std::vector<Vec3>& x,
+void VelocityTies::add_interpolations(const Model& model, const State& state, const Cluster& cluster, const std::vector<Vec3>& x,
                                       std::vector<Row>& rows) const {
   for (std::size_t i = 0; i < cluster.interpolations.size(); ++i) {
     const Interpolation& tie = model.interpolations[cluster.interpolations[i]];
@@ -211,7 +213,7 @@ void VelocityTies::add_interpolations(const Model& model, const Cluster& cluster
     for (std::size_t dof = 0; dof < 6; ++dof) {
       if (!(tie.dofs & (1u << dof))) continue;
       const bool angular = dof >= 3;
-      const Vec3 e = unit(dof % 3), g = inverse_moment * (angular ? e : cross(d, e));
+      const Vec3 e = frame_axes(model, state, tie.frame).column(dof % 3), g = inverse_moment * (angular ? e : cross(d, e));
       Row& row = rows.emplace_back();
       row.push_back({places[0], angular ? Vec3{} : e, angular ? e : Vec3{}});
       for (std::size_t k = 0; k < independent.size(); ++k) {
@@ -234,14 +236,14 @@ void VelocityTies::impose(const Model& model, State& state, const Cluster& clust
   std::vector<Row> forces;
   add_equations(model, state, cluster, forces);
   const std::vector<Row> equations = forces;
-  add_interpolations(model, cluster, x, forces);
+  add_interpolations(model, state, cluster, x, forces);
   const std::size_t rows = forces.size();
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     const std::vector<Vec3> v_before = v;
     std::vector<Vec3> middle(count);
     for (std::size_t k = 0; k < count; ++k) middle[k] = x[k] + v[k] * (0.5 * state.clock.dt);
     std::vector<Row> kinematic = equations;
-    add_interpolations(model, cluster, middle, kinematic);
+    add_interpolations(model, state, cluster, middle, kinematic);
     std::vector<double> matrix(rows * rows, 0.0), rate(rows, 0.0);
     for (std::size_t j = 0; j < rows; ++j) {
       std::vector<Vec3> dv(count), domega(count);  // response of the nodes to a unit of row j

@@ -36,7 +36,7 @@ class VelocityTies {
   class Grouping;
 
   void add_equations(const Model& model, const State& state, const Cluster& cluster, std::vector<Row>& rows) const;
-  void add_interpolations(const Model& model, const Cluster& cluster, const std::vector<Vec3>& x, std::vector<Row>& rows) const;
+  void add_interpolations(const Model& model, const State& state, const Cluster& cluster, const std::vector<Vec3>& x, std::vector<Row>& rows) const;
   void impose(const Model& model, State& state, const Cluster& cluster) const;
 
   std::vector<Cluster> clusters_;

@@ -20,6 +20,9 @@ Law with_erosion(Law law, const ErosionCriteria& criteria, LawUse use) {
     erosion.law_plastic_strain = law.plastic_strain;
     law.plastic_strain += Erosion::law_begin;
   }
+  if (law.preload) {
+    law.preload = [below = std::move(law.preload)](double strain, double* values) { below(strain, values + Erosion::law_begin); };
+  }
   law.start.insert(law.start.begin(), Erosion::law_begin, 0.0);
   law.start.resize(erosion.history(), 0.0);
   law.tensors += Erosion::own_tensors;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,14 @@ struct Law {
   std::size_t plastic_strain = npos;
   static constexpr std::size_t npos = static_cast<std::size_t>(-1);
 
+  /// Gives the values of a point what an effective plastic strain before t = 0 means for them, whatever stress comes with it; empty where
+  /// the stress follows from the values alone.
+  std::function<void(double strain, double* values)> preload;
+  bool remembers = false;                 ///< more than stress and plastic strain tell: back stress, temperature, damage
+
+  /// Place of the factor beta of stiffness damping in the history (stiffness_damping.hpp), one value of each point; npos: none.
+  std::size_t damping = npos;
+
   std::size_t history() const { return start.size(); }
 };
 
@@ -64,6 +73,9 @@ struct LawSource {
 
 /// A law whose points also fail by criteria of stress, strain and time (erosion.hpp).
 Law with_erosion(Law law, const ErosionCriteria& criteria, LawUse use);
+
+/// A law with the stress of stiffness damping on top (stiffness_damping.hpp). @param shear_factor of shells
+Law with_stiffness_damping(Law law, LawUse use, double shear_factor);
 
 /// Density and Young's modulus positive, -1 < nu < 0.5; complains otherwise.
 bool check_elastic_constants(LawSource& source, double density, double youngs_modulus, double poissons_ratio);

@@ -69,6 +69,31 @@ void keep_constants(Law& law, const Constants& constants, const LawSource& sourc
   constants.start(law.start.data());
 }
 
+/// Yield stress of a hardening table at the plastic strain p.
+double yield_at(const HardeningCurve& hardening, double p) {
+  std::size_t row = 0;
+  while (row + 1 < hardening.row_count && p >= hardening.rows[(row + 1) * hardening_columns]) ++row;
+  const double* piece = hardening.rows + row * hardening_columns;
+  return piece[1] + piece[2] * (p - piece[0]);
+}
+
+/// Law::preload and ::remembers, for the set-up only.
+template <class L>
+void set_preload(Law& law, const L& own) {
+  if constexpr (std::is_same_v<L, PiecewisePlastic>) {
+    law.preload = [hardening = own.hardening](double strain, double* values) {
+      values[PiecewisePlastic::plastic_strain] = strain;
+      values[PiecewisePlastic::plastic_strain + 1] = yield_at(hardening, strain);
+    };
+  } else if constexpr (requires { L::plastic_strain; }) {
+    law.preload = [](double strain, double* values) { values[L::plastic_strain] = strain; };
+  } else if constexpr (!requires { L::finite_strain; } && !std::is_same_v<L, NullMaterial>) {
+    law.preload = [](double, double*) {};
+  }
+  if constexpr (std::is_base_of_v<PlasticKinematic, L>) law.remembers = own.kinematic > 0;                       // the back stress
+  if constexpr (std::is_same_v<L, JohnsonCook> || std::is_same_v<L, Viscoelastic>) law.remembers = true;  // temperature, damage; what relaxes
+}
+
 template <class L>
 std::optional<Law> make(LawSource& source, LawUse use, double shear_factor, const LawKernels& kernels) {
   const std::optional<L> own = L::make(source);
@@ -86,6 +111,7 @@ std::optional<Law> make(LawSource& source, LawUse use, double shear_factor, cons
   if constexpr (requires { L::plastic_strain; }) law.plastic_strain = L::plastic_strain;
   if constexpr (requires { own->can_fail(); }) law.can_fail = own->can_fail();
   if constexpr (requires { own->deletion(); }) law.deletion = own->deletion();
+  set_preload(law, *own);
   if constexpr (std::is_same_v<L, Elastic>) law.inlined = InlinedLaw::elastic;
   if constexpr (std::is_same_v<L, PiecewisePlastic>) law.inlined = InlinedLaw::piecewise_plastic;
   if (use == LawUse::solid) {
@@ -165,6 +191,12 @@ std::optional<ErosionCriteria> criteria_of_law(const Material& material) {
   return criteria;
 }
 
+bool damped(const Model& model, const Part& part) {
+  return std::any_of(model.stiffness_dampings.begin(), model.stiffness_dampings.end(), [&](const StiffnessDamping& damping) {
+    return std::any_of(damping.parts.begin(), damping.parts.end(), [&](PartIndex p) { return &model.parts[static_cast<std::size_t>(p)] == &part; });
+  });
+}
+
 bool check_erosion(LawSource& source, const Law& law, const ErosionCriteria& criteria, LawUse use) {
   const auto refuse = [&](const char* what, const char* cure) {
     source.diagnostics.error(source.name + what, cure, "*MAT_ADD_EROSION");
@@ -218,6 +250,7 @@ std::optional<Law> make_law(const Model& model, const Part& part, LawUse use, do
     diagnostics.warning("part " + std::to_string(part.id) + " names an equation of state; " + source.name + keyword_of(material) + " has none and takes no notice",
                         "set EOSID = 0", "*PART");
   }
+  if (damped(model, part)) law = with_stiffness_damping(std::move(*law), use, shear_factor);
   return law;
 }
 

@@ -52,6 +52,13 @@ struct DampingLaw {
   double frequency = 0;             ///< FREQ [1/time]
 };
 
+/// *DAMPING_PART_STIFFNESS(_SET): a later entry replaces an earlier one.
+struct StiffnessDamping {
+  std::vector<PartIndex> parts;
+  double fraction = 0;              ///< COEF > 0: of critical damping at the highest frequency of each element
+  double beta = 0;                  ///< -COEF > 0: Rayleigh's factor on the stiffness [time]
+};
+
 /// *BOUNDARY_NON_REFLECTING: waves leave through these faces of solids.
 struct NonReflectingBoundary {
   std::vector<std::array<NodeIndex, 4>> segments;  ///< a triangle repeats its third node

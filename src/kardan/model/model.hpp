@@ -10,6 +10,7 @@
 #include "kardan/model/control.hpp"
 #include "kardan/model/curve.hpp"
 #include "kardan/model/entities.hpp"
+#include "kardan/model/initial_stress.hpp"
 #include "kardan/model/loads.hpp"
 #include "kardan/model/materials.hpp"
 #include "kardan/model/rigid.hpp"
@@ -63,10 +64,12 @@ struct Model {
   std::vector<PointLoad> point_loads;
   std::vector<PressureLoad> pressure_loads;
   std::vector<DampingLaw> dampings;
+  std::vector<StiffnessDamping> stiffness_dampings;
   std::vector<NonReflectingBoundary> non_reflecting;
   std::vector<PrescribedMotion> prescribed_motions;
   std::vector<SinglePointConstraint> constraints;
   std::vector<InitialVelocity> initial_velocities;
+  std::vector<InitialStress> initial_stresses;
 
   std::vector<RigidWall> rigid_walls;
   std::vector<Contact> contacts;

@@ -31,6 +31,8 @@ struct RigidGroup {
     double normal_exponent = 1, shear_exponent = 1;    ///< N, M
   };
   std::optional<Failure> failure;
+  enum class Weld : std::uint8_t { no, spot, generalized } weld = Weld::no;
+  UserId weld_id = 0;
 };
 
 /// *CONSTRAINED_LINEAR_GLOBAL, _LOCAL: sum of coefficient x displacement (rotation) = 0.
@@ -49,9 +51,11 @@ struct LinearEquation {
 struct Interpolation {
   UserId id = 0;
   NodeIndex dependent = none;
-  std::uint8_t dofs = 0;   ///< DDOF: Dof bits of the dependent node
+  std::uint8_t dofs = 0;   ///< DDOF: Dof bits of the dependent node, along the axes of `frame`
+  Index frame = none;      ///< CIDD of _LOCAL
   std::vector<NodeIndex> nodes;
   std::vector<double> weight;  ///< by node
+  bool asks_rotations = false; ///< IDOF names rotations of independent nodes too (the default); they take no part
 };
 
 }  // namespace kardan

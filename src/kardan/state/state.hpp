@@ -159,6 +159,18 @@ struct WallReport {
   std::vector<Vec3> segment_force;  ///< by segment of a wall that has some, like `force`; valid where somebody looks
 };
 
+/// SWFORC of one weld at t_n.
+struct WeldReport {
+  enum class Kind : std::uint8_t { constrained, generalized, beam } kind = Kind::constrained;
+  UserId id = 0;             ///< of the constraint or element
+  double axial = 0;          ///< force along the weld, tension positive
+  double shear = 0;          ///< resultant force across it
+  double moment = 0, torsion = 0;  ///< of beams: resultant bending moment, twisting moment
+  double length = 0;         ///< distance of its nodes
+  bool failed = false;
+  double failure_time = 0;   ///< of those that have failed
+};
+
 /// Energies at t_n by the classes GLSTAT prints, per part where a part has it.
 ///
 /// Accounting, every cycle between kick and drift: the solver first calls begin(), which zeroes what is a snapshot at t_n;
@@ -213,6 +225,7 @@ struct State {
   std::vector<SectionReport> sections;       ///< by cross section, valid between kick and drift of a cycle that is looked at
   std::vector<WallReport> walls;             ///< by rigid wall of the model
   std::vector<ContactReport> contacts;       ///< by contact of the model
+  std::vector<WeldReport> welds;             ///< of elements, then constraints; current between kick and drift of a cycle that is looked at
   EnergyLedger energy;
   AddedMass added_mass;
   ElementResults results;

@@ -1,10 +1,13 @@
 #include "kardan/elements/beam/beam_forces.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
 #include "kardan/elements/beam/beam_setup.hpp"
+#include "kardan/elements/damping_factors.hpp"
+#include "kardan/elements/initial_stress.hpp"
 #include "kardan/elements/lumped_mass.hpp"
 
 namespace kardan {
@@ -44,6 +47,25 @@ void set_weld_failure(const Material& material, BeamProperties& p) {
   p.breaks = p.breaks || p.failure_time > 0;
 }
 
+/// Resultants of *INITIAL_STRESS_BEAM (F11, T11, M12, M13, M22, M23) into the values of a Belytschko-Schwer beam.
+void set_resultants(const std::vector<double>& given, double* values) {
+  constexpr std::array<std::size_t, 6> order{0, 1, 2, 4, 3, 5};  // axial, torsion, M_s at nodes 1 and 2, M_t likewise
+  for (std::size_t i = 0; i < order.size(); ++i) values[(beam_history::force + order[i]) * block_lanes] = given[i];
+}
+
+/// Energy of the resultants with the element's own stiffness (beam_formulations.hpp): of two end moments with the matrix c [4 + phi, 2 - phi;
+/// 2 - phi, 4 + phi] it is ((4 + phi) (a^2 + b^2) - 2 (2 - phi) a b)/(24 c (1 + phi)).
+double resultant_energy(const double* values) {
+  const auto constant = [values](std::size_t i) { return values[(beam_history::constant + i) * block_lanes]; };
+  const auto force = [values](std::size_t i) { return values[(beam_history::force + i) * block_lanes]; };
+  const auto bending = [](double c, double phi, double a, double b) {
+    return c > 0 ? ((4 + phi) * (a * a + b * b) - 2 * (2 - phi) * a * b) / (24 * c * (1 + phi)) : 0.0;
+  };
+  const double torsion = constant(1) > 0 ? force(1) * force(1) / (2 * constant(1)) : 0.0;
+  return force(0) * force(0) / (2 * constant(0)) + torsion + bending(constant(2), constant(3), force(2), force(3)) +
+         bending(constant(4), constant(5), force(4), force(5));
+}
+
 /// Kernels of a formulation, null where it is not computed.
 const TileKernels* kernels_of(int elform) {
   switch (elform) {
@@ -72,6 +94,9 @@ BeamForces::BeamForces(const Model& model, State& state, Diagnostics& diagnostic
   elements_.for_each([&](Index beam, PartIndex part, double* own) {
     if (!complained[part]) complained[part] = !start_element(model, beam, part, own, diagnostics);
   });
+  add_welds(model, state);
+  damp(model);
+  preload(model, diagnostics);
 }
 
 bool BeamForces::set_up_part(const Model& model, PartIndex p, Diagnostics& diagnostics) {
@@ -92,7 +117,9 @@ bool BeamForces::set_up_part(const Model& model, PartIndex p, Diagnostics& diagn
   }
   std::optional<Law> law = make_law(model, part, LawUse::beam, 1.0, diagnostics);
   if (!law) return false;
-  if (s.elform == beam_elform::belytschko_schwer && law->inlined != InlinedLaw::elastic) {
+  if (s.elform == beam_elform::belytschko_schwer && stiffness_damping_of(model, p)) {
+    refuse("ELFORM = 2 with *DAMPING_PART_STIFFNESS", "use ELFORM = 1, or take the damping away", "*DAMPING_PART_STIFFNESS");
+  } else if (s.elform == beam_elform::belytschko_schwer && law->inlined != InlinedLaw::elastic) {
     refuse("ELFORM = 2 and a material other than *MAT_ELASTIC", "use ELFORM = 1, or *MAT_ELASTIC", "*PART");
   }
   const auto* fields = std::get_if<FieldMaterial>(&model.materials[part.material].law);
@@ -150,6 +177,69 @@ bool BeamForces::start_element(const Model& model, Index beam, PartIndex part, d
   return true;
 }
 
+void BeamForces::damp(const Model& model) {
+  if (model.stiffness_dampings.empty()) return;
+  const auto beta = [&](Index beam, PartIndex part) {
+    const StiffnessDamping* damping = stiffness_damping_of(model, part);
+    const auto& nodes = model.beams.nodes[beam];
+    const double length = norm(model.nodes.x[nodes[1]] - model.nodes.x[nodes[0]]);
+    return damping ? damping_factor(*damping, length * std::sqrt(laws_[part].density / laws_[part].youngs_modulus)) : 0.0;
+  };
+  elements_.set_damping(beta);
+  elements_.for_each([&](Index beam, PartIndex part, double* own) {
+    const Law& law = laws_[part];
+    for (std::size_t i = 0; law.damping != Law::npos && i < static_cast<std::size_t>(properties_[part]->points); ++i)
+      own[(beam_history::count + i * beam_point_values(law.history()) + 3 + law.damping) * block_lanes] = beta(beam, part);
+  });
+}
+
+void BeamForces::preload(const Model& model, Diagnostics& diagnostics) {
+  PreloadCheck check(model);
+  for (const auto& [beam, given] : initial_stresses_of(model, ElementKind::beam)) {
+    if (elements_.values_of(beam) == nullptr) continue;  // rigid or discrete
+    const PartIndex part = elements_.part_of(beam);
+    if (check.takes(model, part, laws_[part], *given, diagnostics)) preload_beam(model, *given, beam, diagnostics);
+  }
+}
+
+void BeamForces::preload_beam(const Model& model, const InitialStress& given, Index beam, Diagnostics& diagnostics) {
+  const PartIndex part = elements_.part_of(beam);
+  const BeamProperties& p = *properties_[part];
+  const Law& law = laws_[part];
+  const auto& nodes = model.beams.nodes[beam];
+  const Vec3 line = model.nodes.x[nodes[1]] - model.nodes.x[nodes[0]];
+  const double length = norm(line);
+  const auto refuse = [&](const std::string& what, const std::string& cure) {
+    diagnostics.error("beam " + std::to_string(model.beams.id[beam]) + " is given " + what, cure, "*INITIAL_STRESS_BEAM");
+  };
+  double* const values = elements_.values_of(beam);
+  const auto value = [values](std::size_t row) -> double& { return values[row * block_lanes]; };
+  if (p.points == 0) {
+    if (given.resultants.empty()) return refuse("stresses of points; its formulation has resultants", "give F11 to M23 and NPTS = 1 of ELFORM 2");
+    set_resultants(given.resultants, values);
+    return elements_.add_energy(beam, resultant_energy(values));
+  }
+  if (given.points.empty()) return refuse("resultants; its formulation has stresses", "give the stresses of its points");
+  const auto same = [&](const InitialStress::Point& point) { return point.stress == given.points.front().stress; };
+  if (!std::all_of(given.points.begin(), given.points.end(), same))
+    return refuse("stresses that differ over the section; which point is which is not known to Kardan", "give one stress for all points");
+  const Vec3 r = line / length, s{value(beam_history::axis), value(beam_history::axis + 1), value(beam_history::axis + 2)};
+  const Vec3 t = cross(r, s);
+  const Mat3 axes = Mat3::columns(r, s, t);
+  const InitialStress::Point& point = given.points.front();
+  const StressVector stress = given.local ? point.stress : in_axes(point.stress, axes);
+  const double own_stress[3] = {stress[0], stress[3], stress[5]};
+  const std::size_t per_point = beam_point_values(law.history());
+  for (std::size_t i = 0; i < static_cast<std::size_t>(p.points); ++i) {
+    double* const own = values + (beam_history::count + i * per_point) * block_lanes;
+    for (std::size_t c = 0; c < 3; ++c) own[c * block_lanes] = own_stress[c];
+    preload_history(law, point.plastic_strain, own + 3 * block_lanes);
+  }
+  const double shear = own_stress[1] * own_stress[1] + own_stress[2] * own_stress[2];
+  const double volume = beam_area(beam_section(model, beam)) * length;
+  elements_.add_energy(beam, volume * (own_stress[0] * own_stress[0] / p.youngs_modulus + p.shear_factor * shear / p.shear_modulus) / 2);
+}
+
 void BeamForces::internal_forces(const Model& model, State& state) {
   elements_.internal_forces(model, state, [](const State&, Index) { return "has no length or a value that is not finite"; });
 }
@@ -166,6 +256,37 @@ void BeamForces::report(const State& state, BeamResults& results) const {
     results.bending[beam] = {0.5 * living * (force(3) - force(2)), 0.5 * living * (force(5) - force(4))};
     if (!results.alive.empty()) results.alive[beam] = living > 0 ? 1 : 0;
   });
+}
+
+void BeamForces::add_welds(const Model& model, State& state) {
+  first_weld_ = state.welds.size();
+  for (std::size_t e = 0; e < model.beams.size(); ++e) {
+    const auto beam = static_cast<Index>(e);
+    if (elements_.values_of(beam) == nullptr) continue;
+    if (model.sections[model.parts[elements_.part_of(beam)].section].beam.elform != beam_elform::spot_weld) continue;
+    welds_.push_back(beam);
+    WeldReport& weld = state.welds.emplace_back();
+    weld.kind = WeldReport::Kind::beam;
+    weld.id = model.beams.id[e];
+  }
+}
+
+void BeamForces::report_welds(State& state) const {
+  const BeamResults& r = state.results.beam;
+  for (std::size_t i = 0; i < welds_.size(); ++i) {
+    const auto e = static_cast<std::size_t>(welds_[i]);
+    WeldReport& weld = state.welds[first_weld_ + i];
+    weld.axial = r.axial[e];
+    weld.shear = std::hypot(r.shear[e][0], r.shear[e][1]);
+    weld.moment = std::hypot(r.bending[e][0], r.bending[e][1]);
+    weld.torsion = r.torsion[e];
+    const auto& n = (*nodes_)[e];
+    weld.length = norm(state.nodes.x[n[1]] - state.nodes.x[n[0]]);
+    if (!weld.failed && !(elements_.alive(welds_[i]) > 0)) {
+      weld.failed = true;
+      weld.failure_time = state.clock.time;
+    }
+  }
 }
 
 }  // namespace kardan

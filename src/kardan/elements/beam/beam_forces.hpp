@@ -32,15 +32,23 @@ class BeamForces {
   }
   /// Resultants at t_n.
   void report(const State& state, BeamResults& results) const;
+  /// Entries of spot welds (ELFORM 9) in state.welds, and what they say at t_n, after report().
+  void add_welds(const Model& model, State& state);
+  void report_welds(State& state) const;
 
  private:
   bool set_up_part(const Model& model, PartIndex part, Diagnostics& diagnostics);
+  void damp(const Model& model);
+  void preload(const Model& model, Diagnostics& diagnostics);
+  void preload_beam(const Model& model, const InitialStress& given, Index beam, Diagnostics& diagnostics);
   bool start_element(const Model& model, Index beam, PartIndex part, double* own, Diagnostics& diagnostics) const;
 
   TileElements elements_;
   std::vector<Law> laws_;                                         ///< by part of the model
   std::vector<std::shared_ptr<const BeamProperties>> properties_; ///< likewise
   const std::vector<std::array<NodeIndex, 3>>* nodes_;            ///< of the model's beams
+  std::vector<Index> welds_;                                      ///< beams that are spot welds
+  std::size_t first_weld_ = 0;                                    ///< of them in state.welds
 };
 
 }  // namespace kardan

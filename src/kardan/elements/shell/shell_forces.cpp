@@ -6,9 +6,11 @@
 #include <span>
 #include <string>
 
+#include "kardan/elements/damping_factors.hpp"
 #include "kardan/elements/free_sides.hpp"
 #include "kardan/elements/geometry.hpp"
 #include "kardan/elements/hourglass.hpp"
+#include "kardan/elements/initial_stress.hpp"
 #include "kardan/elements/lumped_mass.hpp"
 
 namespace kardan {
@@ -76,6 +78,7 @@ ShellForces::ShellForces(const Model& model, State& state, Diagnostics& diagnost
     for (const PartIndex part : group->elements.parts()) set_kernel(model, part, *group);
     start(model, state, *group);
   }
+  preload(model, diagnostics);
   state.results.shell.layers = std::max(1, std::abs(model.output.maxint));
   if (quads_.elements.deletable() || triangles_.elements.deletable()) state.results.shell.alive.assign(model.shells.size(), 1);
 }
@@ -144,7 +147,7 @@ void ShellForces::start(const Model& model, State& state, Group& group) {
     if (p.offsets) own[(kept + kept_offset) * block_lanes] = offset_of(model, shell, thickness) - by_nloc;
   });
   const std::vector<std::uint8_t> edges = free_edges(model.shells);
-  group.elements.scale_steps([&](Index shell, PartIndex part) {
+  const auto step_factor = [&](Index shell, PartIndex part) {
     const Law& law = laws_[part];
     const ShellSection& section = model.sections[model.parts[part].section].shell;
     const bool membrane = formulations_[part].membrane;
@@ -153,7 +156,60 @@ void ShellForces::start(const Model& model, State& state, Group& group) {
     const double area = shell_area(gather_coordinates(model.nodes.x, model.shells.nodes[shell]));
     return free_shell_factor(model, shell, edges[shell], body, thickness) *
            (membrane ? 1.0 : offset_factor(offset_of(model, shell, thickness), thickness, area));
+  };
+  group.elements.scale_steps(step_factor);
+  if (model.stiffness_dampings.empty()) return;
+  const auto beta = [&](Index shell, PartIndex part) {
+    const StiffnessDamping* damping = stiffness_damping_of(model, part);
+    const auto& nodes = model.shells.nodes[shell];
+    const double length = shell_length(gather_coordinates(model.nodes.x, nodes), is_triangle(nodes), model.control.time_step.isdo);
+    return damping ? damping_factor(*damping, length / group.properties[part]->wave_speed * step_factor(shell, part)) : 0.0;
+  };
+  group.elements.set_damping(beta);
+  group.elements.for_each([&](Index shell, PartIndex part, double* own) {
+    const Law& law = laws_[part];
+    const std::size_t kept = shell_kept(*group.properties[part], law.history());
+    for (std::size_t first = 5; law.damping != Law::npos && first < kept; first += shell_point_values(law.history()))
+      own[(first + law.damping) * block_lanes] = beta(shell, part);
   });
+}
+
+void ShellForces::preload(const Model& model, Diagnostics& diagnostics) {
+  PreloadCheck check(model);
+  for (const auto& [shell, given] : initial_stresses_of(model, ElementKind::shell)) {
+    Group& group = quads_.elements.values_of(shell) ? quads_ : triangles_;
+    if (group.elements.values_of(shell) == nullptr) continue;  // of a rigid part
+    const PartIndex part = group.elements.part_of(shell);
+    if (check.takes(model, part, laws_[part], *given, diagnostics)) preload_shell(model, *given, shell, group);
+  }
+}
+
+void ShellForces::preload_shell(const Model& model, const InitialStress& given, Index shell, Group& group) {
+  const PartIndex part = group.elements.part_of(shell);
+  const ShellProperties& p = *group.properties[part];
+  const ShellSection& section = model.sections[model.parts[part].section].shell;
+  const Law& law = laws_[part];
+  const auto x = gather_coordinates(model.nodes.x, model.shells.nodes[shell]);
+  const Mat3 frame = shell_frame(x);
+  const bool membrane = formulations_[part].membrane;
+  const double volume = shell_area(x) * mean_thickness(model, shell);
+  double* const values = group.elements.values_of(shell);
+  const std::size_t per_point = shell_point_values(law.history());
+  double energy = 0;
+  for (int g = 0; g < p.in_plane; ++g) {
+    for (int i = 0; i < p.points; ++i) {
+      const double t = p.zeta[i] + (membrane ? 0.0 : section.nloc);
+      const PointPreload point = shell_preload(given, t, g, p.in_plane);
+      StressVector s = given.local ? point.stress : in_axes(point.stress, frame);
+      s[2] = 0;  // plane stress
+      if (membrane) s[4] = s[5] = 0;
+      double* const own = values + static_cast<std::size_t>(g * p.points + i) * per_point * block_lanes;
+      energy += volume * 0.5 * p.weight[i] / p.in_plane * elastic_energy(law, s, membrane ? 0.0 : section.shrf);
+      for (std::size_t c = 0; const double stress : {s[0], s[1], s[3], s[4], s[5]}) own[block_lanes * c++] = stress;
+      preload_history(law, point.plastic_strain, own + 5 * block_lanes);
+    }
+  }
+  group.elements.add_energy(shell, energy);
 }
 
 void ShellForces::internal_forces(const Model& model, State& state) {

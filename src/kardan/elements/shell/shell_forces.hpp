@@ -47,6 +47,8 @@ class ShellForces {
   bool make_part(const Model& model, PartIndex part, Diagnostics& diagnostics);
   void set_kernel(const Model& model, PartIndex part, Group& group);
   void start(const Model& model, State& state, Group& group);
+  void preload(const Model& model, Diagnostics& diagnostics);
+  void preload_shell(const Model& model, const InitialStress& given, Index shell, Group& group);
   const Group& group_of(Index shell) const { return quads_.elements.values_of(shell) ? quads_ : triangles_; }
   void report_group(const Model& model, State& state, const Group& group) const;
   void report_histories(const Model& model, State& state) const;

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <string>
 
+#include "kardan/elements/damping_factors.hpp"
 #include "kardan/elements/free_sides.hpp"
 #include "kardan/elements/geometry.hpp"
 #include "kardan/elements/hourglass.hpp"
+#include "kardan/elements/initial_stress.hpp"
 
 namespace kardan {
 
@@ -98,6 +100,7 @@ SolidForces::SolidForces(const Model& model, State& state, Diagnostics& diagnost
     start_histories(model, shape);
     deletable = deletable || shape.elements.deletable();
   }
+  preload(model, diagnostics);
   TileElements& fours = shapes_[static_cast<std::size_t>(SolidShape::tetrahedron)].elements;
   if (std::find(nodal_pressure_.begin(), nodal_pressure_.end(), 1) != nodal_pressure_.end()) {
     fours.node_values().assign(fours.mesh().node.size(), 1.0);
@@ -124,10 +127,63 @@ void SolidForces::start_histories(const Model& model, Shape& shape) {
     }
   });
   const std::vector<std::uint8_t> faces = free_faces(model.solids);
-  shape.elements.scale_steps([&](Index solid, PartIndex part) {
+  const auto step_factor = [&](Index solid, PartIndex part) {
     const Law& law = laws_[at(part)];
     return free_solid_factor(model, solid, faces[at(solid)], {law.density, law.shear, law.longitudinal, 0});
+  };
+  shape.elements.scale_steps(step_factor);
+  if (model.stiffness_dampings.empty()) return;
+  const auto beta = [&](Index solid, PartIndex part) {
+    const StiffnessDamping* damping = stiffness_damping_of(model, part);
+    if (damping == nullptr) return 0.0;
+    const Law& law = laws_[at(part)];
+    const auto& nodes = model.solids.nodes[at(solid)];
+    const double length = solid_length(gather_coordinates(model.nodes.x, nodes), nodes);
+    return damping_factor(*damping, length * std::sqrt(law.density / law.longitudinal) * step_factor(solid, part));
+  };
+  shape.elements.set_damping(beta);
+  shape.elements.for_each([&](Index solid, PartIndex part, double* own) {
+    const SolidFormulation& f = *shape.formulation[at(part)];
+    const Law& law = laws_[at(part)];
+    for (std::size_t p = 0; law.damping != Law::npos && p < f.points; ++p)
+      own[(solid_history::stress(f.own_values, law.history(), p) + 6 + law.damping) * block_lanes] = beta(solid, part);
   });
+}
+
+void SolidForces::preload(const Model& model, Diagnostics& diagnostics) {
+  PreloadCheck check(model);
+  for (const auto& [solid, given] : initial_stresses_of(model, ElementKind::solid)) {
+    for (Shape& shape : shapes_) {
+      if (shape.elements.values_of(solid) == nullptr) continue;  // of another shape, or of a rigid part
+      const PartIndex part = shape.elements.part_of(solid);
+      if (check.takes(model, part, laws_[at(part)], *given, diagnostics)) preload_solid(model, *given, solid, shape, diagnostics);
+    }
+  }
+}
+
+void SolidForces::preload_solid(const Model& model, const InitialStress& given, Index solid, Shape& shape, Diagnostics& diagnostics) {
+  const PartIndex part = shape.elements.part_of(solid);
+  const SolidFormulation& f = *shape.formulation[at(part)];
+  const Law& law = laws_[at(part)];
+  const std::size_t count = given.points.size();
+  const bool unordered = &f == &quadratic_hexahedron;  // which of its points LS-DYNA counts first is not published
+  if (count != 1 && (unordered || (count != f.points && count != 8))) {
+    diagnostics.error(fmt::format("solid {} is given the initial stresses of {} points; its formulation has {}", model.solids.id[at(solid)], count,
+                                  f.points),
+                      unordered ? "give one point for the whole element of ELFORM 3" : "give one point for the whole element, or as many as the formulation has", "*INITIAL_STRESS_SOLID");
+    return;
+  }
+  double* const values = shape.elements.values_of(solid);
+  const double share = values[solid_history::volume * block_lanes] / static_cast<double>(f.points);
+  double energy = 0;
+  for (std::size_t p = 0; p < f.points; ++p) {
+    double* const own = values + solid_history::stress(f.own_values, law.history(), p) * block_lanes;
+    const PointPreload point = solid_preload(given, p, f.points);
+    for (std::size_t c = 0; c < 6; ++c) own[c * block_lanes] = point.stress[c];
+    energy += share * elastic_energy(law, point.stress);
+    preload_history(law, point.plastic_strain, own + 6 * block_lanes);
+  }
+  shape.elements.add_energy(solid, energy);
 }
 
 const SolidFormulation* SolidForces::formulation_of(SolidShape shape, int elform, int esort) {

@@ -48,6 +48,8 @@ class SolidForces {
   /// The formulation of a shape in a part with this ELFORM; null where there is none.
   static const SolidFormulation* formulation_of(SolidShape shape, int elform, int esort);
   void start_histories(const Model& model, Shape& shape);
+  void preload(const Model& model, Diagnostics& diagnostics);
+  void preload_solid(const Model& model, const InitialStress& given, Index solid, Shape& shape, Diagnostics& diagnostics);
 
   std::array<Shape, solid_shapes.size()> shapes_;             ///< by SolidShape
   std::vector<Law> laws_;                   ///< by part of the model

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <utility>
 
 namespace kardan {
 
@@ -101,6 +102,15 @@ const double* TileElements::values_of(Index element) const {
   return p.here ? const_cast<TileElements*>(this)->values(p.tile, p.element) : nullptr;
 }
 
+double* TileElements::values_of(Index element) { return const_cast<double*>(std::as_const(*this).values_of(element)); }
+
+void TileElements::add_energy(Index element, double energy) {
+  const Place p = find(element);
+  if (!p.here) return;
+  internal_[p.tile] += energy;
+  if (!energy_.empty()) energy_[static_cast<std::size_t>(place_[element])] += energy;
+}
+
 double TileElements::alive(Index element) const {
   return alive_.empty() || place_[element] == none ? 1.0 : alive_[static_cast<std::size_t>(place_[element])];
 }
@@ -179,6 +189,7 @@ void TileElements::run_tile(std::size_t t, const State& state, AlignedVector<dou
     work.alive = alive_.data() + first;
   }
   if (!energy_.empty()) work.energy = energy_.data() + first;
+  if (!damping_.empty()) work.damping = damping_.data() + first;
   if (!steps_.empty()) work.steps = steps_.data() + first;
   if (!step_factor_.empty() && !step_factor_[t].empty()) work.step_factor = step_factor_[t].data();
   if (!watched_begin_.empty() && watched_begin_[t] != npos) work.element_force = watched_force_.data() + watched_begin_[t];

@@ -76,9 +76,11 @@ class TileElements {
       if (!exactly && !(outcome_[t].time_step < step)) continue;
       for (std::size_t i = 0; i < tile.elements; ++i) {
         const std::size_t place = tile.first_block * block_lanes + i;
-        const double ratio = step / steps_[place];
+        // The undamped step, which goes with the root of the mass, is sqrt(step^2 + 2 beta step); see TileReport.
+        const double own = steps_[place], twice_beta = damping_.empty() ? 0.0 : 2 * damping_[place];
+        const double ratio = step / own * ((step + twice_beta) / (own + twice_beta));
         if (!(ratio > 0) || !((exactly ? std::abs(ratio - 1) : ratio - 1) > scaling_tolerance)) continue;  // 0: deleted, its step is infinite
-        const double factor = mass_factor_[place] * ratio * ratio;
+        const double factor = mass_factor_[place] * ratio;
         add(mesh_.element[place], factor - mass_factor_[place]);
         mass_factor_[place] = factor;
         step_factor_[t][i] = side_factor_[t][i] * std::sqrt(factor);
@@ -100,6 +102,15 @@ class TileElements {
     }
   }
   void start(State& state);
+  /// After start(): stiffness damping, beta(element of the model, its part) [time], which shortens the stable steps.
+  template <class F>
+  void set_damping(F&& beta) {
+    damping_.assign(mesh_.element.size(), 0.0);
+    for (const Tile& tile : mesh_.tiles) {
+      const std::size_t first = tile.first_block * block_lanes;
+      for (std::size_t i = first; i < first + tile.blocks * block_lanes; ++i) damping_[i] = beta(mesh_.element[i], tile.part);
+    }
+  }
 
   /// f(element of the model, its part, its values): value k at values[k * block_lanes]. Empty lanes of last blocks, which repeat the
   /// last element, are met too unless `real_only`.
@@ -117,6 +128,9 @@ class TileElements {
   }
   /// Values of an element, null if it is not here.
   const double* values_of(Index element) const;
+  /// After start(): internal energy that an element has at t = 0; and its values, null if it is not here.
+  void add_energy(Index element, double energy);
+  double* values_of(Index element);
   /// Part of an element that is here.
   PartIndex part_of(Index element) const { return mesh_.tiles[find(element).tile].part; }
   /// 1, or 0 if the element has been deleted; 1 where it is not here.
@@ -149,7 +163,7 @@ class TileElements {
   void add_energies(std::vector<double>& internal, std::vector<double>& hourglass) const;
 
  private:
-  static constexpr double scaling_tolerance = 1e-12;  ///< of the step: what is less is rounding, and would add up over the cycles
+  static constexpr double scaling_tolerance = 1e-12;  ///< of the mass: what is less is rounding, and would add up over the cycles
   static constexpr std::size_t npos = static_cast<std::size_t>(-1);
 
   /// What a tile reports of a cycle.
@@ -183,6 +197,7 @@ class TileElements {
   AlignedVector<double> watched_force_;        ///< TileWork::element_force of the watched tiles
   std::vector<double> node_values_;           ///< by local node of all tiles; empty: none
   AlignedVector<double> steps_, mass_factor_;  ///< [block][lane] stable step, mass over that of t = 0; empty: no mass scaling
+  AlignedVector<double> damping_;              ///< [block][lane] beta of stiffness damping; empty: none
   double erode_below_ = 0;
   std::vector<std::size_t> watched_begin_;    ///< by tile, into watched_force_; npos = nobody asks; empty = of no tile
   std::vector<double> internal_, hourglass_;  ///< energies, by tile

@@ -53,6 +53,10 @@ struct alignas(cache_line) BlockReport {
 };
 
 /// What the blocks of a tile report, summed and searched lane by lane.
+///
+/// Stiffness damping shortens the stable step: with the viscous stress of the velocity before t_n, beta K v_{n-1/2}, a mode of frequency omega is
+/// stable up to dt = 2/omega (sqrt(1 + xi^2) - xi), xi = beta omega/2 (Belytschko, Liu and Moran 2000, section 6.2); with the undamped
+/// step 2/omega that is sqrt(step^2 + beta^2) - beta.
 class TileReport {
  public:
   TileReport() {
@@ -67,6 +71,10 @@ class TileReport {
       Pack alive = Pack::load(block.alive + l), step = Pack::load(block.time_step + l);
       if (work.alive && work.smallest_step > 0) alive = select(step < Pack(work.smallest_step), zero, alive);
       if (work.step_factor) step *= Pack::load(work.step_factor + place);
+      if (work.damping) {
+        const Pack beta = Pack::load(work.damping + place);
+        step = sqrt(step * step + beta * beta) - beta;
+      }
       if (work.alive && work.erode_below > 0) alive = select(step < Pack(work.erode_below), zero, alive);
       internal_[i] += own;
       hourglass_[i] += Pack::load(block.hourglass + l);

@@ -38,6 +38,7 @@ struct TileWork {
   double* alive = nullptr;                      ///< [block][lane] in and out: 1, or 0 if deleted; null where nothing can be deleted
   double* energy = nullptr;                     ///< [block][lane] internal energy of each element, added to; may be null
   const double* step_factor = nullptr;          ///< [block][lane] on the stable step; null: 1
+  const double* damping = nullptr;              ///< [block][lane] factor beta of stiffness damping [time]; null: none
   double* steps = nullptr;                      ///< [block][lane] out: stable step of each element; may be null
   double* element_force = nullptr;              ///< [block][node of the element][component][lane] out: forces that the nodes exert on each
                                                 ///< element; null where nobody asks

@@ -58,6 +58,8 @@ std::string AsciiWriter::text_of(const Snapshot& s) {
       return ncforc_text(s);
     case OutputFile::rwforc:
       return rwforc_text(s);
+    case OutputFile::swforc:
+      return swforc_text(s);
     case OutputFile::deforc:
       return deforc_text(s);
     case OutputFile::secforc:
@@ -79,6 +81,8 @@ void AsciiWriter::append(const Snapshot& s, const std::string& text) {
     if (s.file == OutputFile::spcforc) file_.write(" single point constraint forces\n\n");
     if (s.file == OutputFile::rwforc)
       file_.write("\n\n    time       wall#   normal-force    x-force        y-force        z-force\n");
+    if (s.file == OutputFile::swforc)
+      file_.write("\n spotweld and constraint forces\n\n constraint#     axial          shear          time           failure        length         moment         torsion\n");
     headed_ = true;
   }
   file_.write(text);

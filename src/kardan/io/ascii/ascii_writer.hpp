@@ -39,6 +39,7 @@ std::string jntsep_text(const Snapshot& s);
 std::string bndout_text(const Snapshot& s);
 std::string spcforc_text(const Snapshot& s);
 std::string rwforc_text(const Snapshot& s);
+std::string swforc_text(const Snapshot& s);
 std::string deforc_text(const Snapshot& s);
 std::string secforc_text(const Snapshot& s);
 std::string elout_text(const Snapshot& s);

@@ -1,4 +1,4 @@
-// JNTFORC, BNDOUT, SPCFORC, RWFORC, DEFORC and Kardan's own JNTSEP. The layouts are those of the ASCII files that LSTC's binout
+// JNTFORC, BNDOUT, SPCFORC, RWFORC, SWFORC (Kardan's columns), DEFORC and Kardan's own JNTSEP. The layouts are those of the ASCII files that LSTC's binout
 // translator prints.
 #include <fmt/format.h>
 
@@ -176,6 +176,20 @@ std::string rwforc_text(const Snapshot& s) {
     }
   }
   return text;
+}
+
+std::string swforc_text(const Snapshot& s) {
+  static constexpr std::array<const char*, 3> types{"constraint", "weld", "beam"};
+  const Folder& f = s.folders.at(0);
+  const auto& ids = f.meta("ids");
+  const auto& failed = f.integers.at(0).values;
+  std::string text;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    put(text, "{:12d}{:15.5E}{:15.5E}{:15.5E}{:15.5E}{:15.5E}{:15.5E}{:15.5E}  {}{}\n", ids[i], f["axial"][i], f["shear"][i], s.time,
+        static_cast<double>(failed[i]), f["length"][i], f["resultant_moment"][i], f["torsion"][i],
+        types[static_cast<std::size_t>(f.meta("types")[i]) - 1], failed[i] != 0 ? " failed" : "");
+  }
+  return text + "\n";
 }
 
 std::string deforc_text(const Snapshot& s) {

@@ -1,4 +1,4 @@
-// JNTFORC, BNDOUT, SPCFORC, RWFORC, DEFORC and SECFORC.
+// JNTFORC, BNDOUT, SPCFORC, RWFORC, SWFORC, DEFORC and SECFORC.
 #include <fmt/format.h>
 
 #include <array>
@@ -216,6 +216,29 @@ std::vector<Folder> rwforc_folders(const Model& model, const State& state) {
   for (std::size_t i = 0; i < n; ++i)
     if (!state.walls[i].segment_force.empty()) folders.push_back(wall_segments_folder(state.walls[i], i + 1));
   return folders;
+}
+
+Folder swforc_folder(const State& state) {
+  const std::vector<WeldReport>& welds = state.welds;
+  const std::size_t n = welds.size();
+  Folder f;
+  f.path = "/swforc";
+  f.text_metadata = {{"typenames", "constraint,weld,beam"}};  // types count from 1
+  IntegerColumn ids{"ids", {}}, types{"types", {}}, failed{"failure", {}};
+  for (const WeldReport& weld : welds) {
+    ids.values.push_back(weld.id);
+    types.values.push_back(static_cast<std::int64_t>(weld.kind) + 1);
+    failed.values.push_back(weld.failed);
+  }
+  f.metadata = {std::move(ids), std::move(types)};
+  f.integers = {std::move(failed)};
+  f.add_scalars("axial", n, [&](std::size_t i) { return welds[i].axial; });
+  f.add_scalars("shear", n, [&](std::size_t i) { return welds[i].shear; });
+  f.add_scalars("failure_time", n, [&](std::size_t i) { return welds[i].failure_time; });
+  f.add_scalars("length", n, [&](std::size_t i) { return welds[i].length; });
+  f.add_scalars("resultant_moment", n, [&](std::size_t i) { return welds[i].moment; });
+  f.add_scalars("torsion", n, [&](std::size_t i) { return welds[i].torsion; });
+  return f;
 }
 
 Folder deforc_folder(const Model& model, const State& state) {

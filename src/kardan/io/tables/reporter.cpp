@@ -11,7 +11,8 @@ const std::vector<OutputFile>& Reporter::files() {
                                               OutputFile::rbdout,  OutputFile::jntforc, OutputFile::bndout,
                                               OutputFile::spcforc, OutputFile::deforc,  OutputFile::secforc,
                                               OutputFile::elout,   OutputFile::rwforc,
-                                              OutputFile::rcforc,  OutputFile::sleout,  OutputFile::ncforc};
+                                              OutputFile::rcforc,  OutputFile::sleout,  OutputFile::ncforc,
+                                              OutputFile::swforc};
   return all;
 }
 
@@ -59,6 +60,9 @@ Snapshot Reporter::take(OutputFile file, const Model& model, const State& state)
       break;
     case OutputFile::rwforc:
       s.folders = rwforc_folders(model, state);
+      break;
+    case OutputFile::swforc:
+      s.folders.push_back(swforc_folder(state));
       break;
     default:
       KARDAN_ASSERT(!"a file of Reporter::files()");

@@ -39,13 +39,14 @@ std::vector<Folder> bndout_folders(const Model& model, const State& state);
 Folder spcforc_folder(const Model& model, const State& state);
 /// /rwforc/forces, and /rwforc/wall001 … for walls whose force is reported by segments.
 std::vector<Folder> rwforc_folders(const Model& model, const State& state);
+Folder swforc_folder(const State& state);
 Folder deforc_folder(const Model& model, const State& state);
 Folder secforc_folder(const Model& model, const State& state);
 Folder rcforc_folder(const Model& model, const State& state);
 Folder sleout_folder(const Model& model, const State& state);
 /// /ncforc/slave_<id> and master_<id>, for sides that SPR and MPR ask for.
 std::vector<Folder> ncforc_folders(const Model& model, const State& state);
-/// /elout/solid and /elout/shell.
+/// /elout/solid, /elout/beam and /elout/shell.
 std::vector<Folder> elout_folders(const Model& model, const State& state);
 
 }  // namespace kardan

@@ -39,6 +39,30 @@ TEST(BuildDamping, Refusals) {
   EXPECT_NE(b.unsupported("field DV2"), nullptr);
 }
 
+TEST(BuildDamping, StiffnessByPartAndSet) {
+  const Built b(two_blocks + "*DAMPING_PART_STIFFNESS\n1,.1\n2,-1.e-5\n*SET_PART\n3\n1,2\n*DAMPING_PART_STIFFNESS_SET\n3,.05\n");
+  ASSERT_TRUE(b.diagnostics.ok()) << b.messages();
+  const auto& d = b.model.stiffness_dampings;
+  ASSERT_EQ(d.size(), 3u);
+  EXPECT_EQ(d[0].fraction, .1);
+  EXPECT_EQ(d[0].beta, 0);
+  EXPECT_EQ(d[1].fraction, 0);
+  EXPECT_EQ(d[1].beta, 1e-5);
+  EXPECT_EQ(d[2].parts, (std::vector<PartIndex>{0, 1}));
+  EXPECT_FALSE(Built(two_blocks + "*DAMPING_PART_STIFFNESS\n1,10.\n").diagnostics.ok());
+}
+
+TEST(BuildTies, InterpolationInLocalAxes) {
+  const Built b(two_blocks + "*DEFINE_COORDINATE_SYSTEM\n6,0,0,0,0,1,0\n-1,0,0\n"
+                             "*CONSTRAINED_INTERPOLATION_LOCAL\n5,26,12,6\n21,123,2.\n6\n22,123,1.\n0\n23,123\n0\n");
+  ASSERT_TRUE(b.diagnostics.ok()) << b.messages();
+  const Interpolation& tie = b.model.interpolations.at(0);
+  EXPECT_EQ(tie.frame, 0);
+  EXPECT_EQ(tie.dofs, dof_x | dof_y);
+  EXPECT_EQ(tie.nodes.size(), 3u);
+  EXPECT_FALSE(tie.asks_rotations);
+}
+
 TEST(BuildTies, WeldsNodeSetsEquationsAndInterpolation) {
   const Built b(two_blocks + "*SET_NODE\n3\n21,22,23\n*CONSTRAINED_SPOTWELD_ID\n8\n21,24,100.,50.,2.,3.,.5\n9\n22,25\n"
                 "*CONSTRAINED_GENERALIZED_WELD_FILLET\n3\n.25\n*CONSTRAINED_NODE_SET\n3,5\n"

@@ -88,6 +88,7 @@ void read_shell(Builder& b, Block& block) {
   for (const char* field : {"pstupd", "sidt4tu"}) b.refuse_nonzero(update, field, "thickness change of some parts only", "leave it 0: all deformable shells");
   for (const char* field : {"w_mode", "stretch"}) b.refuse_nonzero(update, field, "deletion of distorted shells", "leave it blank");
   b.ignored(update, "icrq", "thickness and plastic strain are those of each element");
+  b.refuse_nonzero(block.next_optional("card4"), "lispsid", "initial stresses in the axes of the shells", "give them in global axes");
   for (const char* field : {"nfail1", "nfail4"}) b.ignored(failure, field, "a distorted shell stops the run");
 }
 

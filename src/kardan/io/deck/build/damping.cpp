@@ -60,6 +60,24 @@ void build_damping_part(Builder& b, Block& block) {
   }
 }
 
+void build_damping_stiffness(Builder& b, Block& block) {
+  const bool set = block.keyword.ends_with("_SET");
+  block.for_each("card0", [&](const Card& card) {
+    StiffnessDamping damping;
+    if (set) {
+      damping.parts = b.part_set(card, "psid");
+    } else if (const PartIndex p = b.reference(card, "pid", b.parts); p != none) {
+      damping.parts = {p};
+    }
+    const double coefficient = card.real("coef");
+    if (coefficient < 0) damping.beta = -card.real("coef", dimension::time);
+    damping.fraction = std::max(coefficient, 0.0);
+    if (coefficient > 1) card.error("coef", "found " + card.text("coef") + ", expected a share of critical damping", "give a value up to 1, mostly 0.01 to 0.25");
+    if (coefficient > 0) card.warning("coef", "LS-DYNA's damping for COEF > 0 is not published; here it is that share of critical damping at each element's highest frequency");
+    if (!damping.parts.empty() && coefficient != 0 && coefficient <= 1) b.model.stiffness_dampings.push_back(std::move(damping));
+  });
+}
+
 void build_damping_relative(Builder& b, Block& block) {
   block.for_each("card0", [&](const Card& card) {
     DampingLaw law;

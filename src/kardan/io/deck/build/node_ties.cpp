@@ -1,4 +1,4 @@
-// *CONSTRAINED_SPOTWELD, _GENERALIZED_WELD, _NODE_SET, _LINEAR, _INTERPOLATION.
+// *CONSTRAINED_SPOTWELD, _GENERALIZED_WELD, _NODE_SET, _LINEAR, _INTERPOLATION (_LOCAL).
 #include <algorithm>
 #include <string>
 
@@ -52,6 +52,12 @@ UserId number_or(const Card& card, std::string_view field, std::size_t count) {
   return id != 0 ? id : static_cast<UserId>(count) + 1;
 }
 
+void name_weld(Builder& b, const Card& head, RigidGroup::Weld kind, RigidGroup& weld) {
+  weld.weld = kind;
+  weld.weld_id = number_or(head, "wid", b.model.rigid_groups.size());
+  weld.name = "weld " + std::to_string(weld.weld_id);
+}
+
 }  // namespace
 
 void build_spotweld(Builder& b, Block& block) {
@@ -60,7 +66,7 @@ void build_spotweld(Builder& b, Block& block) {
     const Card card = block.next("card0");
     if (!card.present()) return;
     RigidGroup weld;
-    weld.name = "weld " + std::to_string(number_or(head, "wid", b.model.rigid_groups.size()));
+    name_weld(b, head, RigidGroup::Weld::spot, weld);
     weld.nodes = {b.node(card, "n1"), b.node(card, "n2")};
     weld.failure = read_failure(card);
     weld.death = Builder::time_or(card, "tf", 1e20);
@@ -81,13 +87,13 @@ void build_generalized_weld(Builder& b, Block& block) {
     const Card law = block.next("card1");
     if (!law.present()) return;
     RigidGroup weld;
-    weld.name = "weld " + std::to_string(number_or(head, "wid", b.model.rigid_groups.size()));
+    name_weld(b, head, RigidGroup::Weld::generalized, weld);
     weld.nodes = b.node_set(card, "nsid");
     weld.death = Builder::time_or(law, "tfail", 1e20);
     refuse_plastic_failure(b, law, "epsf");
     if (card.integer("filter") > 1)
       b.unsupported(card, "filter", "failure by filtered forces is not available", "leave FILTER at 0");
-    b.ignored(card, "cid", "the forces of welds are not written");
+    b.ignored(card, "cid", "the forces of welds are written along the line of their nodes and across it");
     if (spot) {
       weld.failure = read_failure(law);
       if (weld.failure && weld.nodes.size() > 2)
@@ -152,6 +158,7 @@ void read_independent(Builder& b, const Card& card, bool set, Interpolation& tie
   if ((dofs & dof_translations) != dof_translations)
     b.unsupported(card, "idof", "independent nodes that take part with some of their translations only are not available",
                   "give IDOF the digits 123");
+  tie.asks_rotations = tie.asks_rotations || (dofs & dof_rotations) != 0;
   const double weight = Builder::real_or(card, "twghtx", 1.0);
   for (const char* field : {"twghty", "twghtz"}) {
     if (!card.blank(field) && card.real(field) != 0 && card.real(field) != weight)
@@ -175,6 +182,7 @@ void read_independent(Builder& b, const Card& card, bool set, Interpolation& tie
 }  // namespace
 
 void build_interpolation(Builder& b, Block& block) {
+  const bool local = block.keyword.ends_with("_LOCAL");
   const Card head = block.next("head");
   Interpolation tie;
   tie.id = number_or(head, "icid", b.model.interpolations.size());
@@ -188,7 +196,13 @@ void build_interpolation(Builder& b, Block& block) {
     tie.dependent = b.node(head, "dnid");
   }
   tie.dofs = dofs_of_digits(head, "ddof");
-  while (!block.at_end()) read_independent(b, block.next("card0"), sets, tie);
+  if (local) tie.frame = b.optional_reference(head, "cidd", b.frames);
+  while (!block.at_end()) {
+    const Card card = block.next("card0");
+    read_independent(b, card, sets, tie);
+    // Independent nodes take part with all translations and one weight: their axes do not matter.
+    if (local) b.optional_reference(block.next("independent_axes"), "cidi", b.frames);
+  }
   const auto self = std::find(tie.nodes.begin(), tie.nodes.end(), tie.dependent);
   if (self != tie.nodes.end()) {
     head.error("dnid", "node " + std::to_string(b.model.nodes.id[at(tie.dependent)]) + " is independent too", "leave it out of the list");
