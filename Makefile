@@ -23,7 +23,7 @@ test: build
 	ctest --preset release -j $(JOBS)
 
 verify-long: build
-	$(KARDAN) verify mechanisms-long deformable-long
+	$(KARDAN) verify mechanisms-long deformable-long contact-long
 	KARDAN_LONG=1 build/release/bin/kardan_test_app --gtest_filter='CorpusRun.*'
 
 sanitize: packages

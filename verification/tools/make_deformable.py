@@ -1,7 +1,8 @@
-"""Writes the decks of verification/deformable. Run it from the root of the project; the decks it wrote are committed."""
+"""Writes the decks of verification/deformable and verification/contact. Run it from the root of the project; the decks it wrote are committed."""
 import pathlib
 
 import beam_cases
+import contact_cases
 import formulation_cases
 import shell_cases
 import solid_cases
@@ -83,6 +84,7 @@ def main():
     solid_cases.write_all()
     beam_cases.write_all()
     formulation_cases.write_all()
+    contact_cases.write_all()
 
 
 if __name__ == "__main__":

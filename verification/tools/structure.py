@@ -6,6 +6,26 @@ from deck import card
 SUPPORT = {"": 0, "x": 1, "y": 2, "z": 3, "xy": 4, "yz": 5, "xz": 6, "xyz": 7}  # TC and RC of *NODE
 
 
+def head(deck):
+    """First lines of a deck with a title, about, units, end and tssfac."""
+    return ["*KEYWORD", "*TITLE", deck.title, "$ " + deck.about,
+            f"$ Units: {deck.units}. Comma-separated fields; every number is given in full double precision.",
+            "$ Written by verification/tools/make_deformable.py.", "$",
+            "*CONTROL_TERMINATION", card(deck.end, 0),
+            "$ DTINIT, TSSFAC: the step that the verification gives is the largest", "*CONTROL_TIMESTEP", card(0, deck.tssfac),
+            "$ HGEN = 2, SLNTEN = 2: hourglass and sliding energies are computed", "*CONTROL_ENERGY", "2,1,2,1",
+            "*DATABASE_GLSTAT", card(deck.end / 100, 0), "*DATABASE_BINARY_D3PLOT", card(deck.end / 20, 0), "$"]
+
+
+def node_cards(nodes, held):
+    """*NODE with supports; `held`: {number: (translations, rotations)}."""
+    o = ["*NODE"]
+    for n, x in enumerate(nodes, 1):
+        t, r = held.get(n, ("", ""))
+        o.append(card(n, *x, SUPPORT[t], SUPPORT[r]) if t or r else card(n, *x))
+    return o
+
+
 class Structure:
     """One part of shells, solids or beams, with supports, nodal forces and the lines that are its own."""
 
@@ -44,19 +64,10 @@ class Structure:
         self.extra += list(lines)
 
     def write(self, path):
-        o = ["*KEYWORD", "*TITLE", self.title, "$ " + self.about,
-             f"$ Units: {self.units}. Comma-separated fields; every number is given in full double precision.",
-             "$ Written by verification/tools/make_deformable.py.", "$",
-             "*CONTROL_TERMINATION", card(self.end, 0),
-             "$ DTINIT, TSSFAC: the step that the verification gives is the largest", "*CONTROL_TIMESTEP", card(0, self.tssfac),
-             "$ HGEN = 2, SLNTEN = 2: hourglass and sliding energies are computed", "*CONTROL_ENERGY", "2,1,2,1",
-             "*DATABASE_GLSTAT", card(self.end / 100, 0), "*DATABASE_BINARY_D3PLOT", card(self.end / 20, 0), "$"]
+        o = head(self)
         if self.hourglass:
             o += ["$ IHQ, QM", "*CONTROL_HOURGLASS", card(*self.hourglass)]
-        o += list(self.section) + list(self.material) + ["*PART", self.title, "1,1,1", "$"] + self.extra + ["*NODE"]
-        for n, x in enumerate(self.mesh.nodes, 1):
-            t, r = self.held.get(n, ("", ""))
-            o.append(card(n, *x, SUPPORT[t], SUPPORT[r]) if t or r else card(n, *x))
+        o += list(self.section) + list(self.material) + ["*PART", self.title, "1,1,1", "$"] + self.extra + node_cards(self.mesh.nodes, self.held)
         o.append({3: "*ELEMENT_BEAM", 4: "*ELEMENT_SHELL", 8: "*ELEMENT_SOLID"}[len(self.mesh.elements[0])])
         o += [card(e, 1, *nodes) for e, nodes in enumerate(self.mesh.elements, 1)] + ["*END"]
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes docs/verification.md: runs `kardan verify --markdown` and puts the figures below the text of report_head.md.
 
-usage: write_report.py KARDAN [GROUP …] > new.md     KARDAN: the program; GROUP: run these only (deformable, deformable-long, mechanisms,
-                                                     mechanisms-long) and keep what docs/verification.md says of the others
+usage: write_report.py KARDAN [GROUP …] > new.md     KARDAN: the program; GROUP: run these only (contact, contact-long, deformable, deformable-long,
+                                                     mechanisms, mechanisms-long) and keep what docs/verification.md says of the others
 """
 import datetime
 import os
@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-GROUPS = ["deformable", "deformable-long", "mechanisms", "mechanisms-long"]
+GROUPS = ["contact", "contact-long", "deformable", "deformable-long", "mechanisms", "mechanisms-long"]
 
 
 def machine():

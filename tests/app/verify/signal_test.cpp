@@ -102,10 +102,39 @@ TEST_F(Signals, MomentumCountsSpinAndPath) {
   expect_near(evaluate(R"({"momentum": "angular"})"), {0, 0, 7});
 }
 
+TEST_F(Signals, PartsContactsAndWalls) {
+  model_.parts.resize(2);
+  model_.parts[0].id = 3;
+  model_.parts[1].id = 4;
+  model_.shells.id = {1, 2, 3};
+  model_.shells.part = {0, 0, 1};
+  model_.shells.nodes = {{0, 1, 2, 2}, {1, 2, 3, 3}, {4, 4, 4, 4}};  // two of the first share two nodes
+  state_.nodes.mass = {1, 2, 3, 4, 100};
+  state_.nodes.inertia = {0, 0, 0, 0.5, 100};
+  state_.nodes.v_now.assign(5, {0, 1, 0});
+  state_.nodes.omega_now.assign(5, {0, 0, 2});
+  state_.nodes.x.assign(5, {});
+  state_.nodes.x[1] = {10, 0, 0};
+  expect_near(evaluate(R"({"part": 3, "quantity": "momentum"})"), {0, 10, 0});
+  expect_near(evaluate(R"({"part": 3, "quantity": "angular_momentum"})"), {0, 0, 21});
+  model_.contacts.resize(2);
+  model_.contacts[1].id = 5;
+  state_.contacts.resize(2);
+  state_.contacts[1].force = {1, 2, 3};
+  state_.contacts[1].friction_energy = 7;
+  expect_near(evaluate(R"({"contact": 5, "quantity": "force"})"), {1, 2, 3});
+  expect_near(evaluate(R"({"contact": 5, "quantity": "friction_energy"})"), {7});
+  model_.rigid_walls.resize(2);
+  model_.rigid_walls[1].id = 6;
+  state_.walls.resize(2);
+  state_.walls[1].force = {4, 5, 6};
+  expect_near(evaluate(R"({"wall": 6, "quantity": "force"})"), {4, 5, 6});
+}
+
 TEST_F(Signals, UnknownThingsAreRefused) {
   for (const char* bad : {R"({"body": 8, "quantity": "center"})", R"({"body": 7, "quantity": "centre"})",
                           R"({"node": 1, "quantity": "position"})", R"({"joint": 1, "quantity": "force"})",
-                          R"({"stiffness": 1, "quantity": "total"})", R"({"energy": "dark"})", R"({"sum": []})",
+                          R"({"stiffness": 1, "quantity": "total"})", R"({"energy": "dark"})", R"({"part": 1, "quantity": "momentum"})", R"({"contact": 1, "quantity": "force"})", R"({"wall": 1, "quantity": "force"})", R"({"sum": []})",
                           R"({})", R"({"body": 7})", R"({"joint": "all", "quantity": "force"})"})
     EXPECT_THROW(evaluate(bad), CaseError) << bad;
 }

@@ -186,6 +186,53 @@ Signal stiffness_signal(const json& d, const Model& model) {
   refuse(d, "no such quantity of a joint stiffness");
 }
 
+Signal contact_signal(const json& d, const Model& model) {
+  const std::size_t c = index_by_id(d, "contact", model.contacts);
+  const auto quantity = d.at("quantity").get<std::string>();
+  if (quantity == "force") return [c](const State& s) { return components(s.contacts[c].force); };
+  if (quantity == "friction_energy") return [c](const State& s) { return std::vector{s.contacts[c].friction_energy}; };
+  refuse(d, "no such quantity of a contact");
+}
+
+Signal wall_signal(const json& d, const Model& model) {
+  const std::size_t w = index_by_id(d, "wall", model.rigid_walls);
+  if (d.at("quantity") != "force") refuse(d, "no such quantity of a rigid wall");
+  return [w](const State& s) { return components(s.walls[w].force); };
+}
+
+/// Nodes of the part's shells and solids.
+std::vector<NodeIndex> nodes_of(const Model& model, std::size_t part) {
+  std::vector<NodeIndex> nodes;
+  const auto add = [&](const auto& elements) {
+    for (std::size_t e = 0; e < elements.part.size(); ++e)
+      if (elements.part[e] == static_cast<PartIndex>(part)) nodes.insert(nodes.end(), elements.nodes[e].begin(), elements.nodes[e].end());
+  };
+  add(model.shells);
+  add(model.solids);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+Signal part_signal(const json& d, const Model& model) {
+  const auto nodes = nodes_of(model, index_by_id(d, "part", model.parts));
+  if (nodes.empty()) refuse(d, "the part has no shells and no solids");
+  const auto sum = [nodes](const auto& of_node) {
+    return [nodes, of_node](const State& s) {
+      Vec3 total{};
+      for (const NodeIndex n : nodes) total += of_node(s.nodes, static_cast<std::size_t>(n));
+      return components(total);
+    };
+  };
+  const auto quantity = d.at("quantity").get<std::string>();
+  if (quantity == "momentum") return sum([](const auto& all, std::size_t n) { return all.mass[n] * all.v_now[n]; });
+  if (quantity == "angular_momentum")
+    return sum([](const auto& all, std::size_t n) {
+      return cross(all.x[n], all.mass[n] * all.v_now[n]) + all.inertia[n] * all.omega_now[n];
+    });
+  refuse(d, "no such quantity of a part");
+}
+
 Signal energy_signal(const json& d) {
   const auto name = d.at("energy").get<std::string>();
   const auto of = [](double EnergyLedger::*m) { return [m](const State& s) { return std::vector{s.energy.*m}; }; };
@@ -194,6 +241,7 @@ Signal energy_signal(const json& d) {
   if (name == "hourglass") return of(&EnergyLedger::hourglass);
   if (name == "spring_damper") return of(&EnergyLedger::spring_damper);
   if (name == "joint") return of(&EnergyLedger::joint);
+  if (name == "sliding") return of(&EnergyLedger::sliding);
   if (name == "external_work") return of(&EnergyLedger::external_work);
   if (name == "initial_joint_loss") return of(&EnergyLedger::initial_joint_loss);
   if (name == "total") return [](const State& s) { return std::vector{s.energy.total()}; };
@@ -251,6 +299,9 @@ Signal source_signal(const json& d, const Model& model, const State& state) {
   if (d.contains("solid")) return solid_signal(d, model, state);
   if (d.contains("joint")) return joint_signal(d, model);
   if (d.contains("stiffness")) return stiffness_signal(d, model);
+  if (d.contains("contact")) return contact_signal(d, model);
+  if (d.contains("wall")) return wall_signal(d, model);
+  if (d.contains("part")) return part_signal(d, model);
   if (d.contains("energy")) return energy_signal(d);
   if (d.contains("momentum")) return momentum_signal(d);
   if (d.contains("sum") || d.contains("join") || d.contains("quotient")) return combined_signal(d, model, state);

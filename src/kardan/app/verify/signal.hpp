@@ -32,7 +32,10 @@ using Signal = std::function<std::vector<double>(const State&)>;
 ///   {"joint": id, "quantity": Q}       force, moment (of body A on body B), separation, angular_separation, energy
 ///   {"joint": "all", "quantity": Q}    the largest of all joints; separation, angular_separation
 ///   {"stiffness": id, "quantity": Q}   coordinate, rate, elastic, damping, total (three components), energy
-///   {"energy": name}                   total, kinetic, internal, hourglass, spring_damper, joint, external_work, ratio,
+///   {"contact": id, "quantity": Q}     force (on the tracked side), friction_energy
+///   {"wall": id, "quantity": "force"}  of the nodes on a rigid wall
+///   {"part": id, "quantity": Q}        momentum, angular_momentum (about the origin): of the nodes of its shells and solids
+///   {"energy": name}                   total, kinetic, internal, hourglass, spring_damper, joint, sliding, external_work, ratio,
 ///                                      balance (total - external work), initial_joint_loss
 ///   {"momentum": Q}                    linear, angular (of all bodies about the origin, half step)
 ///   {"sum": [signals]}                 componentwise
