@@ -121,7 +121,7 @@ def hertz():
     runs["wall"] = {"deck": "wall.k", "sample": 5e-4, "end": end}
     figures += history("force, pressed by a rigid wall, elements of 0.12 mm", "wall", {"wall": 1, "quantity": "force", "components": [2], "factor": 4},
                        table, "force", 1e-3, 0.03)
-    write_case(folder, "Rigid sphere on a half space", "Force and indentation of penalty contact and of a rigid wall, in a mesh graded down to a seventh of the "
+    write_case(folder, "Rigid sphere on a half space", "Force and indentation of penalty contact and of a rigid wall, in a mesh graded down to a sixth of the "
                "contact's radius.", "Hertz, F = 4/3 E* sqrt(R) d^1.5, integrated", runs, figures)
 
 
