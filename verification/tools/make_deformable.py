@@ -6,6 +6,7 @@ import contact_cases
 import formulation_cases
 import shell_cases
 import solid_cases
+import solid_plates
 from deck import card
 
 HEAD = """*KEYWORD
@@ -84,6 +85,7 @@ def main():
     solid_cases.write_all()
     beam_cases.write_all()
     formulation_cases.write_all()
+    solid_plates.write_all()
     contact_cases.write_all()
 
 
