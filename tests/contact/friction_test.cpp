@@ -82,6 +82,37 @@ TEST(Friction, OnAnInclineIsCoulombs) {
 }
 
 /// Over the borders of irregular flat segments a pressed node keeps its velocity.
+/// One contact, two blocks on an incline of 25 degrees, coefficients by pairs of parts (*DEFINE_FRICTION) or as means of the parts' own (FS = -1, *PART_CONTACT): one
+/// block sticks at 0.6, the other slides at 0.2.
+TEST(Friction, GoesByPairsOfParts) {
+  const double angle = 25 * std::numbers::pi / 180, sine = std::sin(angle), cosine = std::cos(angle), end = 0.3;
+  for (const auto source : {Contact::FrictionSource::table, Contact::FrictionSource::part}) {
+    test::Meshes m;
+    const PartIndex floor = add_floor(m, 20, 4), sticks = m.solid_part(ElasticMaterial{1000, 1e8, 0.3, 0, 0}), slides = m.solid_part(ElasticMaterial{1000, 1e8, 0.3, 0, 0});
+    std::vector<NodeIndex> middle;
+    for (const PartIndex part : {sticks, slides}) middle.push_back(m.block(part, {2, 2, 2}, {0, part == sticks ? -0.6 : 0.2, 0.5 * thick}, {0.4, 0.4, 0.2}) + 13);
+    Contact& contact = m.surface_to_surface({sticks, slides}, {floor});
+    contact.damping = 0.5;
+    contact.friction_source = source;
+    if (source == Contact::FrictionSource::table) {
+      contact.friction_table = 0;
+      m.model.friction_tables = {{1, {0.9, 0.9, 0, 0}, {{{floor}, {sticks}, {0.6, 0.6, 0, 0}}, {{slides}, {floor}, {0.2, 0.2, 0, 0}}}}};
+    } else {
+      for (const auto& [part, mu] : {std::pair{floor, 0.4}, std::pair{sticks, 0.8}, std::pair{slides, 0.0}})
+        m.model.parts[part].contact = PartContact{.friction = {mu, mu, 0, 0}};
+    }
+    add_gravity(m, Vec3{sine, 0, -cosine} * gravity);
+    m.model.control.termination.end_time = end;
+    Diagnostics diagnostics;
+    Solver solver(m.model, {}, diagnostics);
+    ASSERT_EQ(solver.run(), StopReason::end_time);
+    const auto way = [&](std::size_t i) { return solver.state().nodes.x[middle[i]].x - m.model.nodes.x[middle[i]].x; };
+    EXPECT_LT(std::abs(way(0)), 1e-4);
+    const double expected = 0.5 * gravity * (sine - 0.2 * cosine) * end * end;
+    EXPECT_NEAR(way(1), expected, 0.01 * expected);
+  }
+}
+
 TEST(Sliding, OverFlatBordersHasNoKick) {
   test::Meshes m;
   const PartIndex floor = add_floor(m, 30, 6);

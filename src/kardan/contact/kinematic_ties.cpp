@@ -125,7 +125,12 @@ void KinematicTies::take_masses(State& state) {
     arms_.push_back(t.point.arm);
     if (t.point.arm == Vec3{} && !t.rotations) t.point.foot.spin = Spin::nodal;  // without moments, and the cheapest
   }
-  if (!empty()) state.registry.add({"ties.arm", "length", "contact.place"}, arms_);
+  loads_.resize(ties_.size());
+  if (!empty()) {
+    state.registry.add({"ties.arm", "length", "contact.place"}, arms_);
+    state.registry.add({"ties.load", "mass, mass*length^2", "contact.pass_on_masses"}, loads_);
+    state.registry.add_value({"energy.eroded_kinetic", "energy", "contact.release"}, state.energy.eroded_kinetic);
+  }
   pass_on_masses(state);
 }
 
@@ -138,6 +143,9 @@ const std::vector<NodeIndex>& KinematicTies::pass_on_masses(State& state) {
     const double mass = nodes.mass[s], own = t.rotations ? nodes.inertia[s] : 0.0;
     if (mass == 0 && own == 0) continue;
     const double inertia = t.point.foot.spin == Spin::fitted ? 0.0 : own + mass * dot(arms_[i], arms_[i]);
+    loads_[i].mass += mass;
+    loads_[i].inertia += own;
+    loads_[i].turning += inertia;
     t.point.foot.each([&](std::size_t k, std::size_t n) {
       const double w = t.point.foot.weights[k], m = nodes.mass[n] + w * mass, j = nodes.inertia[n] + w * inertia;
       if (m > 0) nodes.v[n] = (nodes.v[n] * nodes.mass[n] + nodes.v[s] * (w * mass)) / m;
@@ -150,6 +158,65 @@ const std::vector<NodeIndex>& KinematicTies::pass_on_masses(State& state) {
     if (t.rotations) nodes.inertia[s] = 0;
   }
   return changed_;
+}
+
+/// Takes part of what they got of tie `tie` from the corners, or from those that these have passed it on to. @return their kinetic energy of it
+double KinematicTies::take_back(NodeState& nodes, std::size_t tie, double mass, double turning) {
+  const SegmentPoint foot = ties_[tie].point.foot;
+  double energy = 0;
+  foot.each([&](std::size_t k, std::size_t n) {
+    const double m = foot.weights[k] * mass, j = foot.weights[k] * turning;
+    if (m == 0 && j == 0) return;
+    const Index next = tie_of_[n];
+    const bool turns_on = next != none && ties_[at(next)].rotations;
+    if (next != none) {
+      const std::size_t chain = at(next);
+      const double own = turns_on ? j : 0.0;
+      const double passed = ties_[chain].point.foot.spin == Spin::fitted ? 0.0 : own + m * dot(arms_[chain], arms_[chain]);
+      loads_[chain].mass -= m;
+      loads_[chain].inertia -= own;
+      loads_[chain].turning -= passed;
+      energy += take_back(nodes, chain, m, passed);
+    } else {
+      nodes.mass[n] -= m;
+      energy += 0.5 * m * dot(nodes.v[n], nodes.v[n]);
+    }
+    if (turns_on) return;
+    nodes.inertia[n] -= j;
+    energy += 0.5 * j * dot(nodes.omega[n], nodes.omega[n]);
+  });
+  return energy;
+}
+
+bool KinematicTies::release(State& state, const std::function<bool(const TiedPoint&)>& ends) {
+  std::vector<std::uint8_t> gone(ties_.size(), 0);
+  for (std::size_t i = 0; i < ties_.size(); ++i) gone[i] = ends(ties_[i].point);
+  if (std::find(gone.begin(), gone.end(), 1) == gone.end()) return false;
+  NodeState& nodes = state.nodes;
+  tie_of_.assign(nodes.x.size(), none);
+  for (std::size_t i = 0; i < ties_.size(); ++i) tie_of_[at(ties_[i].point.node)] = static_cast<Index>(i);
+  for (std::size_t i = ties_.size(); i-- > 0;) {  // ends of chains first
+    if (!gone[i]) continue;
+    const std::size_t s = at(ties_[i].point.node);
+    const Load load = loads_[i];
+    double lost = take_back(nodes, i, load.mass, load.turning);
+    nodes.mass[s] = load.mass;
+    nodes.v[s] = ties_[i].point.foot.mean(nodes.v);
+    if (ties_[i].rotations) nodes.inertia[s] = load.inertia;
+    lost -= 0.5 * (load.mass * dot(nodes.v[s], nodes.v[s]) + load.inertia * dot(nodes.omega[s], nodes.omega[s]));
+    state.energy.eroded_kinetic += lost;
+    tie_of_[s] = none;
+  }
+  const auto keep = [&gone](auto& list) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (!gone[i]) list[kept++] = list[i];
+    list.resize(kept);
+  };
+  keep(ties_);
+  keep(arms_);
+  keep(loads_);
+  return true;
 }
 
 double KinematicTies::transfer(State& state) {

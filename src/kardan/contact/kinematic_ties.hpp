@@ -7,10 +7,15 @@
 // momenta and the kinetic energy of the corners are those of the model: all three are conserved, and d'Alembert's principle is
 // fulfilled with the powers of the forces. What lumping leaves out: the inertia of the arm in segments of solids.
 //
+// A tie that ends gives the node its mass and rotary inertia back, of the corners' lumped masses, which keep their velocities; the node leaves with
+// sum w_i v_i (and W): momentum is kept, and the kinetic energy that the corners' different velocities and the arm had beyond that counts as
+// eroded.
+//
 // Segments of tied nodes may have tied nodes: masses and forces are passed on from the ends of the chains, velocities from their beginnings.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "kardan/base/diagnostics.hpp"
@@ -31,6 +36,8 @@ class KinematicTies {
   void take_masses(State& state);
   /// Gives mass that was added to tied nodes to the corners, as above. @return corners whose mass has changed
   const std::vector<NodeIndex>& pass_on_masses(State& state);
+  /// Ends those ties of which `ends` is true. @return whether there were any: the masses of free nodes have changed then, and which nodes are free
+  bool release(State& state, const std::function<bool(const TiedPoint&)>& ends);
   /// After the kick of the free nodes, which leaves out nodes without mass: their forces become impulses of the corners.
   /// @return an upper bound of the corners' speeds now
   double transfer(State& state);
@@ -52,10 +59,18 @@ class KinematicTies {
     Vec3 angular_velocity;         ///< of the segment in the coming step
     Vec3 v_before, omega_before;   ///< of the node, before the kick
   };
+  /// What the corners carry of a tied node.
+  struct Load {
+    double mass = 0, inertia = 0;  ///< the node's own; the inertia only where rotations are tied
+    double turning = 0;            ///< what the rotary inertias of the corners got together
+  };
   void sort_chains(const Model& model, Diagnostics& diagnostics);
+  double take_back(NodeState& nodes, std::size_t tie, double mass, double turning);
 
   std::vector<Tie> ties_;          ///< a node behind the tied nodes of its segment
   std::vector<Vec3> arms_;         ///< by tie, at t_n
+  std::vector<Load> loads_;        ///< by tie
+  std::vector<Index> tie_of_;      ///< by node of the model, while ties are released
   std::vector<NodeIndex> changed_;
 };
 

@@ -151,6 +151,8 @@ class TieFinder {
     TiedPoint p;
     p.contact = index_;
     p.node = node.node;
+    p.element = s.element;
+    p.kind = s.kind;
     p.foot.nodes = s.nodes;
     p.foot.weights = c.weights;
     p.foot.corners = static_cast<std::uint8_t>(corners(s));

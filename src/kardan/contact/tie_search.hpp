@@ -20,6 +20,8 @@ struct TiedPoint {
   SegmentPoint foot;               ///< closest to the node at t = 0
   Vec3 arm;                        ///< from the foot to the node
   Vec3 normal;                     ///< unit, to the side of the segment where the node belongs
+  Index element = none;            ///< that the segment lies on, into the block of `kind`; none: of no element
+  ElementKind kind = ElementKind::shell;
   double area = 0;                 ///< the node's share of the tracked segments that face the other side; 0 where it has none
 };
 

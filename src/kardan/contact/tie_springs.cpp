@@ -183,6 +183,18 @@ void TieSprings::act(const Model& model, const State& state, std::size_t i) {
   a.power_segment = -dot(a.force, v_foot) - dot(a.at_foot, w);
 }
 
+void TieSprings::let_go(std::size_t i) {
+  const TiedPoint& p = springs_[i].point;
+  memory_[i].released = 1;
+  holds_[p.contact].held[at(p.node)] = 0;
+  ++holds_[p.contact].releases;
+}
+
+void TieSprings::release(const std::function<bool(const TiedPoint&)>& ends) {
+  for (std::size_t i = 0; i < springs_.size(); ++i)
+    if (!memory_[i].released && ends(springs_[i].point)) let_go(i);
+}
+
 void TieSprings::apply(const Model& model, State& state) {
   follow_step(state);
   const auto count = static_cast<std::ptrdiff_t>(springs_.size());
@@ -194,8 +206,7 @@ void TieSprings::apply(const Model& model, State& state) {
     const Action& a = actions_[i];
     const TiedPoint& p = springs_[i].point;
     if (a.fails) {
-      holds_[p.contact].held[at(p.node)] = 0;
-      ++holds_[p.contact].releases;
+      let_go(i);
       spdlog::info("contact {}: node {} lets go at t = {:.6g}", model.contacts[p.contact].id, model.nodes.id[at(p.node)], state.clock.time);
     }
     nodes.force[at(p.node)] += a.force;

@@ -25,6 +25,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "kardan/contact/tie_search.hpp"
@@ -48,6 +49,8 @@ class TieSprings {
   bool empty() const { return springs_.empty(); }
   /// Adds the forces at t_n to state.nodes.force and .moment, in the order of the ties; those that fail let go, with a line in the log.
   void apply(const Model& model, State& state);
+  /// Those of which `ends` is true let go.
+  void release(const std::function<bool(const TiedPoint&)>& ends);
   /// Every cycle after the kick, with velocities at t_{n+1/2}: the springs' energies up to t_n are added to state.contacts.
   void account(State& state);
   /// Adds forces and moments at t_n to state.contacts.
@@ -82,6 +85,7 @@ class TieSprings {
   };
   class StiffnessBound;
 
+  void let_go(std::size_t i);
   void follow_step(const State& state);
   void act(const Model& model, const State& state, std::size_t i);
   static double remaining(const Contact& contact, double area, double stiffness, Memory& m, double normal, double shear);

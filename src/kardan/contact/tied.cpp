@@ -1,5 +1,7 @@
 #include "kardan/contact/tied.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <string>
 
@@ -31,6 +33,24 @@ std::vector<TiedPoint> points_of(const Model& model, const State& state, bool sp
   return points;
 }
 
+/// By node: it has elements, and all of them are deleted.
+std::vector<std::uint8_t> bare_nodes(const Model& model, const Alive& alive) {
+  enum : std::uint8_t { without, deleted, left };
+  std::vector<std::uint8_t> found(model.nodes.size(), without);
+  const auto look = [&](const auto& elements, ElementKind kind) {
+    for (std::size_t e = 0; e < elements.nodes.size(); ++e) {
+      const std::uint8_t is = alive(kind, static_cast<Index>(e)) ? left : deleted;
+      for (const NodeIndex n : elements.nodes[e])
+        if (n != none) found[static_cast<std::size_t>(n)] = std::max(found[static_cast<std::size_t>(n)], is);
+    }
+  };
+  look(model.shells, ElementKind::shell);
+  look(model.solids, ElementKind::solid);
+  look(model.beams, ElementKind::beam);
+  for (std::uint8_t& f : found) f = f == deleted;
+  return found;
+}
+
 /// What of a tie cannot be honoured.
 void check(const Contact& contact, Diagnostics& diagnostics) {
   const std::string name = "contact " + std::to_string(contact.id);
@@ -56,6 +76,21 @@ TiedContacts::TiedContacts(const Model& model, State& state, Diagnostics& diagno
     if (model.contacts[c].law == ContactLaw::tied) for_good_.push_back(c);
     check(model.contacts[c], diagnostics);
   }
+}
+
+bool TiedContacts::drop_deleted(const Model& model, State& state, const Alive& alive) {
+  if (empty()) return false;
+  const std::vector<std::uint8_t> bare = bare_nodes(model, alive);
+  const auto ends = [&](const TiedPoint& p) {
+    const bool off = p.element != none && !alive(p.kind, p.element);
+    const auto n = static_cast<std::size_t>(p.node);
+    if (off || bare[n])
+      spdlog::info("contact {}: node {} is no longer tied from t = {:.6g}: {}", model.contacts[p.contact].id, model.nodes.id[n], state.clock.time,
+                   off ? "the element of its segment is deleted" : "its elements are deleted");
+    return off || bare[n] != 0;
+  };
+  springs_.release(ends);
+  return kinematic_.release(state, ends);
 }
 
 void TiedContacts::report(State& state) const {

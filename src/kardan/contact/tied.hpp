@@ -8,6 +8,7 @@
 
 #include "kardan/base/diagnostics.hpp"
 #include "kardan/contact/kinematic_ties.hpp"
+#include "kardan/contact/surface.hpp"
 #include "kardan/contact/tie_springs.hpp"
 #include "kardan/model/model.hpp"
 #include "kardan/state/state.hpp"
@@ -24,6 +25,11 @@ class TiedContacts {
   /// After mass scaling, likewise. @return nodes whose mass has changed
   const std::vector<NodeIndex>& pass_on_masses(State& state) { return kinematic_.pass_on_masses(state); }
 
+  /// Some elements have been deleted: ties of nodes that have no element left, and on segments of deleted elements, end, with a line in the log.
+  /// @return whether masses have come back to nodes
+  bool drop_deleted(const Model& model, State& state, const Alive& alive);
+
+  bool empty() const { return kinematic_.empty() && springs_.empty(); }
   /// Forces of springs at t_n.
   void apply(const Model& model, State& state) { springs_.apply(model, state); }
   /// Right after the kick of the free nodes. @return an upper bound of the speeds of the nodes of segments now

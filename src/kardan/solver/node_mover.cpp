@@ -78,7 +78,19 @@ void NodeMover::for_each_chunk(F&& f) const {
 }
 
 NodeMover::NodeMover(const Model& model, State& state) {
-  NodeState& nodes = state.nodes;
+  sort(model, state);
+  for (const NodeIndex node : unattached_) state.nodes.v[at(node)] = state.nodes.omega[at(node)] = {};
+}
+
+void NodeMover::sort(const Model& model, const State& state) {
+  const NodeState& nodes = state.nodes;
+  free_.clear();
+  unattached_.clear();
+  inverse_mass_.clear();
+  inverse_inertia_.clear();
+  chunks_.clear();
+  shared_.clear();
+  shares_.clear();
   for (std::size_t i = 0; i < nodes.x.size(); ++i) {
     if (i % chunk_nodes == 0) {
       const std::size_t end = std::min(i + chunk_nodes, nodes.x.size());
@@ -91,7 +103,6 @@ NodeMover::NodeMover(const Model& model, State& state) {
       inverse_inertia_.push_back(nodes.inertia[i] > 0 ? 1 / nodes.inertia[i] : 0.0);
       chunks_.back().end_free = free_.size();
     } else {
-      nodes.v[i] = nodes.omega[i] = {};
       unattached_.push_back(static_cast<NodeIndex>(i));
     }
   }

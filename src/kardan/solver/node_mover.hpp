@@ -19,6 +19,8 @@ class NodeMover {
   /// Sorts the nodes: free ones have mass and no body; nodes without mass and body stay where they are (orientation
   /// nodes, leftovers), unless a prescribed motion moves them. `state.nodes.mass` and `.body` must be final.
   NodeMover(const Model& model, State& state);
+  /// Which nodes are free has changed, with their masses.
+  void sort(const Model& model, const State& state);
 
   /// Adds the elements' forces to those of all nodes; then velocities of the free nodes to t_{n+1/2}: v += F/m kick,
   /// omega += M/I kick. In a cycle that is looked at the velocities of before are kept in v_now and omega_now for settle(), and

@@ -179,12 +179,14 @@ bool Solver::step() {
 }
 
 void Solver::contact() {
-  if (contacts_->empty()) return;
+  if (contacts_->empty() && ties_->empty()) return;
   if (const std::int64_t deleted = elements_->deleted(); deleted != deleted_) {
     deleted_ = deleted;
-    contacts_->drop_deleted([this](ElementKind kind, Index element) { return elements_->alive(kind, element); });
+    const auto alive = [this](ElementKind kind, Index element) { return elements_->alive(kind, element); };
+    if (ties_->drop_deleted(model_, state_, alive)) nodes_->sort(model_, state_);
+    contacts_->drop_deleted(alive);
   }
-  contacts_->apply(state_);
+  if (!contacts_->empty()) contacts_->apply(state_);
 }
 
 void Solver::kick() {
