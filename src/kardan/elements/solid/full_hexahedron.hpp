@@ -21,14 +21,14 @@ template <class R, class Law>
 KARDAN_INLINE void full_hexahedron_pack(const SolidProperties& p, const Law& law, const PackPlace& place, SolidBlock<8>& block, double* history) {
   const StepTime& step = place.work.step;
   const std::size_t first = place.first;
-  const R dt(step.dt), zero(0.0), one(1.0), third(1.0 / 3.0);
+  const R dt(step.dt), zero(0.0), third(1.0 / 3.0);
   const HexahedronMotion<R> m(place);
   R divergence{};
-  for (int k = 0; k < 6; ++k) divergence += dot(m.v.a[k], m.between.b[k]);
-  divergence *= R(8.0) / m.between.volume;
+  for (int k = 0; k < 6; ++k) divergence += dot(m.v8.a[k], m.between.b[k]);
+  divergence *= m.inverse_between;
 
   const R ratio = m.now.volume / R::load(history + solid_history::volume * block_lanes);
-  const BulkViscosity<R> bulk(p, m.now.volume, one / m.now.volume, m.length, divergence, history);
+  const BulkViscosity<R> bulk(p, m.now.volume, m.inverse_now, m.length, divergence, history);
   const std::size_t point_values = (6 + law.history()) * block_lanes;
   double* values = history + solid_history::own * block_lanes;
   R work{}, pressure{}, smallest(1e300), modulus(p.longitudinal), failed{};
@@ -37,10 +37,10 @@ KARDAN_INLINE void full_hexahedron_pack(const SolidProperties& p, const Law& law
     constexpr double g = 0.57735026918962576451;
     const R r(i & 1 ? g : -g), s(i & 2 ? g : -g), t(i & 4 ? g : -g);
     const Cofactors<R> c_mid(NaturalGradient<R>(m.middle, r, s, t));
-    const NaturalGradient<R> v(m.v, r, s, t);
-    const R inverse = one / c_mid.jacobian;
+    const NaturalGradient<R> v8(m.v8, r, s, t);
+    const R inverse = R(0.125) / c_mid.jacobian;
     Mat3T<R> l;
-    for (std::size_t k = 0; k < 3; ++k) l[k] = (c_mid.r * v.r[k] + c_mid.s * v.s[k] + c_mid.t * v.t[k]) * inverse;
+    for (std::size_t k = 0; k < 3; ++k) l[k] = (c_mid.r * v8.r[k] + c_mid.s * v8.s[k] + c_mid.t * v8.t[k]) * inverse;
     const R correction = (divergence - (l[0].x + l[1].y + l[2].z)) * third;
     l[0].x += correction;
     l[1].y += correction;

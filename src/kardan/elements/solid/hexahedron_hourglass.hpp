@@ -58,30 +58,36 @@ KARDAN_INLINE void assumed_strain_increments(const SolidProperties& p, const Mod
   increment[3] = global(q4);
 }
 
+/// sum_k a_k a_k^T.
+template <int Count, class R>
+KARDAN_INLINE SymmetricTensor<R> sum_of_squares(const Vec3T<R>* a) {
+  SymmetricTensor<R> s{a->x * a->x, a->y * a->y, a->z * a->z, a->x * a->y, a->y * a->z, a->z * a->x};
+  for (int k = 1; k < Count; ++k) {
+    s.xx += a[k].x * a[k].x, s.yy += a[k].y * a[k].y, s.zz += a[k].z * a[k].z;
+    s.xy += a[k].x * a[k].y, s.yz += a[k].y * a[k].z, s.zx += a[k].z * a[k].x;
+  }
+  return s;
+}
+
 /// Bound of the largest eigenvalue of g_a.g_b/8, 1 on parallelepipeds. With g_a = sum_k P_k (delta_ka - Y_ka), Y_ka = (8/V) b_k.x_a, of
-/// the patterns P_k, P_k.P_l = 8 delta_kl, the matrix is Y1^T Y1 + (1 - Y2)^T (1 - Y2), Y1 the rows r, s, t, and Y2 rs, st, rt of Y.
+/// the patterns P_k, P_k.P_l = 8 delta_kl, the matrix is Y1^T Y1 + (1 - Y2)^T (1 - Y2), Y1 the rows r, s, t, and Y2 rs, st, rt of Y. The
+/// sum of the squares of b_k.x_a over some k and a is that of b_k b_k^T over k, contracted with that of x_a x_a^T over a.
 template <class R>
 KARDAN_INLINE R hourglass_size(const Modes<R>& x, const MeanGradient<R>& g, const R& inverse_volume) {
-  R linear{}, own{};
-  for (int a = 3; a < 7; ++a) {
-    for (int k = 0; k < 3; ++k) {
-      const R y1 = dot(g.b[k], x.a[a]), y2 = dot(g.b[k + 3], x.a[a]);
-      linear += y1 * y1;
-      own += y2 * y2;
-    }
-  }
+  const SymmetricTensor<R> warp = sum_of_squares<4>(x.a + 3);
+  const R linear = contraction(sum_of_squares<3>(g.b), warp), own = max(contraction(sum_of_squares<3>(g.b + 3), warp), R(0.0));
   const R f = R(8.0) * inverse_volume, most = R(1.0) + f * sqrt(own);
   return f * f * linear + most * most;
 }
 
-/// Factor of the viscous and the stiffness control. `area` V^(2/3), `inverse_between` the inverse of the volume in the middle of the step.
+/// Factor of the viscous and the stiffness control. `area` V^(2/3).
 template <class R>
-KARDAN_INLINE R hourglass_scale(const SolidProperties& p, const HexahedronMotion<R>& m, const R& area, const R& inverse_between, const R& dt) {
-  const R size = R(p.hourglass_scale) / hourglass_size(m.middle, m.between, inverse_between);
+KARDAN_INLINE R hourglass_scale(const SolidProperties& p, const HexahedronMotion<R>& m, const R& area, const R& dt) {
+  const R size = R(p.hourglass_scale) / hourglass_size(m.middle, m.between, m.inverse_between);
   if (p.hourglass == SolidHourglass::viscous) return size * area;
   R bb{};  // an eighth of B:B
   for (int k = 0; k < 6; ++k) bb += dot(m.between.b[k], m.between.b[k]);
-  return size * R(8.0) * bb * inverse_between * dt;
+  return size * R(8.0) * bb * m.inverse_between * dt;
 }
 
 /// Forces of the hourglass modes at t_n on the geometry of the middle of the step; returns their work over the step. `l` is the mean
@@ -90,30 +96,31 @@ template <class R>
 KARDAN_INLINE R hourglass_forces(const SolidProperties& p, const HexahedronMotion<R>& m, const Mat3T<R>& l, const Mat3T<R>& q,
                                  const R& scale, const R& dt, double* history, Vec3T<R> (&force)[4]) {
   Vec3T<R> rate[4], own[4];
-  for (int k = 0; k < 4; ++k) rate[k] = (m.v.a[k + 3] - l * m.middle.a[k + 3]) * R(8.0);
+  const Mat3T<R> l8 = l * R(8.0);
+  for (int k = 0; k < 4; ++k) rate[k] = m.v8.a[k + 3] - l8 * m.middle.a[k + 3];
   const bool viscous = p.hourglass == SolidHourglass::viscous;
   if (p.hourglass == SolidHourglass::assumed_strain) {
     assumed_strain_increments(p, m.middle, rate, dt, own);
   } else {
     for (int k = 0; k < 4; ++k) own[k] = rate[k] * scale;
   }
-  R work{};
+  R twice_power{};
   for (int k = 0; k < 4; ++k) {
     double* h = history + static_cast<std::size_t>(k) * 3 * block_lanes;
     const Vec3T<R> old{R::load(h), R::load(h + block_lanes), R::load(h + 2 * block_lanes)};
     if (viscous) {
-      work += R(0.5) * dot(old + own[k], rate[k]) * dt;
+      twice_power += dot(old + own[k], rate[k]);
       force[k] = own[k];
     } else {
       const Vec3T<R> before = q * old, after = before + own[k];
-      work += R(0.5) * dot(before + after, rate[k]) * dt;
+      twice_power += dot(before + after, rate[k]);
       force[k] = q * after;
     }
     force[k].x.store(h);
     force[k].y.store(h + block_lanes);
     force[k].z.store(h + 2 * block_lanes);
   }
-  return work;
+  return R(0.5) * twice_power * dt;
 }
 
 }  // namespace kardan::KARDAN_ISA_NAMESPACE

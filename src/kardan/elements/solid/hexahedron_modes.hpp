@@ -23,15 +23,14 @@ struct Modes {
   Vec3T<R> a[7];
 };
 
+/// Eight times the coefficients of nodal values.
 template <class R>
-KARDAN_INLINE Modes<R> to_modes(const Vec3T<R> (&n)[8]) {
+KARDAN_INLINE Modes<R> mode_sums(const Vec3T<R> (&n)[8]) {
   const Vec3T<R> s12 = n[0] + n[1], d12 = n[1] - n[0], s43 = n[3] + n[2], d43 = n[2] - n[3];
   const Vec3T<R> s56 = n[4] + n[5], d56 = n[5] - n[4], s87 = n[7] + n[6], d87 = n[6] - n[7];
   const Vec3T<R> low_s = s43 - s12, low_r = d12 + d43, low_rs = d43 - d12;
   const Vec3T<R> high_s = s87 - s56, high_r = d56 + d87, high_rs = d87 - d56;
-  const R f(0.125);
-  return {{(low_r + high_r) * f, (low_s + high_s) * f, ((s56 + s87) - (s12 + s43)) * f, (low_rs + high_rs) * f,
-           (high_s - low_s) * f, (high_r - low_r) * f, (high_rs - low_rs) * f}};
+  return {{low_r + high_r, low_s + high_s, (s56 + s87) - (s12 + s43), low_rs + high_rs, high_s - low_s, high_r - low_r, high_rs - low_rs}};
 }
 
 /// Nodal values of coefficients whose constant one is zero.
@@ -55,27 +54,28 @@ struct MeanGradient {
   R volume;
 };
 
+/// V = 8 (x1.B1 + x2.(x5 x x4)/3 + x3.(x6 x x5)/3): Euler's sum (8/3) sum_a x_a.B_a counts every triple product once for each of its vectors.
 template <class R>
 KARDAN_INLINE MeanGradient<R> mean_gradient(const Modes<R>& x) {
   const R third(1.0 / 3.0);
   const auto& a = x.a;
-  MeanGradient<R> g{{cross(a[1], a[2]) + cross(a[3], a[5]) * third, cross(a[2], a[0]) + cross(a[4], a[3]) * third,
-                     cross(a[0], a[1]) + cross(a[5], a[4]) * third, (cross(a[1], a[4]) - cross(a[0], a[5])) * third,
-                     (cross(a[2], a[5]) - cross(a[1], a[3])) * third, (cross(a[0], a[3]) - cross(a[2], a[4])) * third},
+  const Vec3T<R> own_s = cross(a[4], a[3]) * third, own_t = cross(a[5], a[4]) * third;
+  MeanGradient<R> g{{cross(a[1], a[2]) + cross(a[3], a[5]) * third, cross(a[2], a[0]) + own_s, cross(a[0], a[1]) + own_t,
+                     (cross(a[1], a[4]) - cross(a[0], a[5])) * third, (cross(a[2], a[5]) - cross(a[1], a[3])) * third,
+                     (cross(a[0], a[3]) - cross(a[2], a[4])) * third},
                     R{}};
-  for (int k = 0; k < 6; ++k) g.volume += dot(a[k], g.b[k]);
-  g.volume *= R(8.0 / 3.0);
+  g.volume = R(8.0) * (dot(a[0], g.b[0]) + dot(a[1], own_s) + dot(a[2], own_t));
   return g;
 }
 
-/// (8/V) sum_k a_k b_k^T over the given coefficients.
+/// factor sum_k a_k b_k^T over the given coefficients.
 template <int Count, class R>
 KARDAN_INLINE Mat3T<R> sum_outer(const Vec3T<R>* a, const Vec3T<R>* b, const R& factor) {
   Mat3T<R> m;
   for (int i = 0; i < 3; ++i) {
     const auto c = static_cast<std::size_t>(i);
-    Vec3T<R> row;
-    for (int k = 0; k < Count; ++k) row += b[k] * a[k][c];
+    Vec3T<R> row = b[0] * a[0][c];
+    for (int k = 1; k < Count; ++k) row += b[k] * a[k][c];
     m[c] = row * factor;
   }
   return m;
@@ -84,35 +84,45 @@ KARDAN_INLINE Mat3T<R> sum_outer(const Vec3T<R>* a, const Vec3T<R>* b, const R& 
 /// V over the largest of the six faces, half the products of their diagonals (LS-DYNA), and of 4 sqrt(|B_i|^2 + |B_4|^2 + |B_5|^2 +
 /// |B_6|^2), i = 1, 2, 3. The latter is the face of a parallelepiped; where an element is folded, its faces' diagonals say little, but
 /// its frequency, from 8 c^2 sum B_k B_k^T/V^2 (Flanagan and Belytschko 1984, J. Eng. Mech. 110, 35-40), is high.
+///
+/// The diagonals of the face t = +-1 are 2 (p + q) and 2 (q - p), p = x1 +- x6 and q = x2 +- x5 the derivatives at its centre: half
+/// their product is 4 p x q = 4 (x1 x x2 + x6 x x5 +- (x1 x x5 + x6 x x2)). The others likewise.
 template <class R>
-KARDAN_INLINE R characteristic_length(const Vec3T<R> (&x)[8], const MeanGradient<R>& g) {
-  const auto face = [&](int a, int b, int c, int d) {
-    const Vec3T<R> n = cross(x[c] - x[a], x[d] - x[b]);
-    return dot(n, n);
+KARDAN_INLINE R characteristic_length(const Modes<R>& x, const MeanGradient<R>& g) {
+  const auto& a = x.a;
+  const auto larger = [](const Vec3T<R>& mean, const Vec3T<R>& difference) {
+    const Vec3T<R> n = mean + difference, m = mean - difference;
+    return max(dot(n, n), dot(m, m));
   };
-  const R largest = max(max(max(face(0, 3, 2, 1), face(4, 5, 6, 7)), max(face(0, 1, 5, 4), face(1, 2, 6, 5))),
-                        max(face(2, 3, 7, 6), face(3, 0, 4, 7)));
+  const Vec3T<R> n15 = cross(a[0], a[4]), n26 = cross(a[1], a[5]), n34 = cross(a[2], a[3]);
+  const R face = max(max(larger(cross(a[1], a[2]) + cross(a[3], a[5]), n26 - n34), larger(cross(a[2], a[0]) + cross(a[4], a[3]), n34 - n15)),
+                     larger(cross(a[0], a[1]) + cross(a[5], a[4]), n15 - n26));
   const auto size = [&](int k) { return dot(g.b[k], g.b[k]); };
   const R folded = max(max(size(0), size(1)), size(2)) + size(3) + size(4) + size(5);
-  return g.volume / (R(0.5) * sqrt(max(largest, R(64.0) * folded)));
+  return g.volume / (R(4.0) * sqrt(max(face, folded)));
 }
 
-/// A pack of hexahedra at t_n and in the middle of the step. Components: of the nodes' forces.
+/// A pack of hexahedra at t_n and in the middle of the step. Components: of the nodes' forces. Divisions stand where their volume is known,
+/// with other work behind them: what needs them does not wait then.
 template <class R, std::size_t Components = 3>
 struct HexahedronMotion {
-  Modes<R> x, v, middle;        ///< positions at t_n, velocities, positions at t_{n-1/2}
+  Modes<R> x, v8, middle;       ///< positions at t_n, eight times the velocities, positions at t_{n-1/2}
   MeanGradient<R> now, between; ///< of x and of middle
+  R inverse_now, inverse_between;  ///< of their volumes
   R length;                     ///< at t_n, for the stable step
 
   KARDAN_INLINE explicit HexahedronMotion(const PackPlace& place) {
     const PackNodes<8, Components> nodes(place);
-    x = to_modes(nodes.x);
-    v = to_modes(nodes.v);
-    now = mean_gradient(x);
-    length = characteristic_length(nodes.x, now);
-    const R half_dt(0.5 * place.work.step.dt);
-    for (int k = 0; k < 7; ++k) middle.a[k] = x.a[k] - v.a[k] * half_dt;
+    x = mode_sums(nodes.x);
+    for (Vec3T<R>& a : x.a) a = a * R(0.125);
+    v8 = mode_sums(nodes.v);
+    const R sixteenth_dt(0.0625 * place.work.step.dt);
+    for (int k = 0; k < 7; ++k) middle.a[k] = x.a[k] - v8.a[k] * sixteenth_dt;
     between = mean_gradient(middle);
+    inverse_between = R(1.0) / between.volume;
+    now = mean_gradient(x);
+    inverse_now = R(1.0) / now.volume;
+    length = characteristic_length(x, now);
   }
 };
 

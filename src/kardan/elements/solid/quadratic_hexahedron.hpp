@@ -121,23 +121,24 @@ struct QuadraticSums {
   EdgeFields<R> bulge_force{};
 };
 
-/// An element's motion: that of the trilinear hexahedron and the bulges of its edges, on the geometry of the middle of the step.
+/// An element's motion: that of the trilinear hexahedron and the bulges of its edges (eight times them, as v8), on the geometry of the
+/// middle of the step.
 template <class R>
 struct QuadraticMotion {
   HexahedronMotion<R, 6> m;
-  EdgeFields<R> bulge;
+  EdgeFields<R> bulge8;
 
   KARDAN_INLINE explicit QuadraticMotion(const PackPlace& place) : m(place) {
     Vec3T<R> omega[8];
     gather_spins(place, omega);
-    bulge = half_products(EdgeFields<R>(m.middle), EdgeFields<R>(to_modes(omega)));
+    bulge8 = half_products(EdgeFields<R>(m.middle), EdgeFields<R>(mode_sums(omega)));
   }
-  /// Derivatives of the velocity at a point.
-  KARDAN_INLINE NaturalGradient<R> velocity(const R& r, const R& s, const R& t) const {
-    NaturalGradient<R> v(m.v, r, s, t);
-    add_gradient(bulge.r, r, s, t, v.r, v.s, v.t);
-    add_gradient(bulge.s, s, t, r, v.s, v.t, v.r);
-    add_gradient(bulge.t, t, r, s, v.t, v.r, v.s);
+  /// Eight times the derivatives of the velocity at a point.
+  KARDAN_INLINE NaturalGradient<R> velocity8(const R& r, const R& s, const R& t) const {
+    NaturalGradient<R> v(m.v8, r, s, t);
+    add_gradient(bulge8.r, r, s, t, v.r, v.s, v.t);
+    add_gradient(bulge8.s, s, t, r, v.s, v.t, v.r);
+    add_gradient(bulge8.t, t, r, s, v.t, v.r, v.s);
     return v;
   }
 };
@@ -148,10 +149,10 @@ KARDAN_INLINE void quadratic_point(const Law& law, const StepTime& step, const Q
                                    const MaterialPoint<R>& fresh, double* jacobian, double* stress, QuadraticSums<R>& sum) {
   const R r(q.r), s(q.s), t(q.t), weight(q.weight), dt(step.dt);
   const Cofactors<R> c_mid(NaturalGradient<R>(motion.m.middle, r, s, t)), c(NaturalGradient<R>(motion.m.x, r, s, t));
-  const NaturalGradient<R> v = motion.velocity(r, s, t);
-  const R inverse = R(1.0) / c_mid.jacobian;
+  const NaturalGradient<R> v8 = motion.velocity8(r, s, t);
+  const R inverse = R(0.125) / c_mid.jacobian;
   Mat3T<R> l;
-  for (std::size_t k = 0; k < 3; ++k) l[k] = (c_mid.r * v.r[k] + c_mid.s * v.s[k] + c_mid.t * v.t[k]) * inverse;
+  for (std::size_t k = 0; k < 3; ++k) l[k] = (c_mid.r * v8.r[k] + c_mid.s * v8.s[k] + c_mid.t * v8.t[k]) * inverse;
   MaterialPoint<R> point = fresh;
   point.volume = c.jacobian / R::load(jacobian);
   sum.work += weight * c_mid.jacobian * update_point(law, step, point_motion(l, dt), point, stress);
@@ -183,9 +184,9 @@ KARDAN_INLINE void quadratic_hexahedron_pack(const SolidProperties& p, const Law
   const QuadraticMotion<R> motion(place);
   const HexahedronMotion<R, 6>& m = motion.m;
   R divergence{};
-  for (int k = 0; k < 6; ++k) divergence += dot(m.v.a[k], m.between.b[k]);
-  divergence *= R(8.0) / m.between.volume;
-  const BulkViscosity<R> bulk(p, m.now.volume, one / m.now.volume, m.length, divergence, history);
+  for (int k = 0; k < 6; ++k) divergence += dot(m.v8.a[k], m.between.b[k]);
+  divergence *= m.inverse_between;
+  const BulkViscosity<R> bulk(p, m.now.volume, m.inverse_now, m.length, divergence, history);
 
   MaterialPoint<R> fresh;
   fresh.viscosity = bulk.mean();
