@@ -9,13 +9,17 @@ namespace kardan::KARDAN_ISA_NAMESPACE {
 /// Newton's method on 1/y^2 = x, y <- y (3/2 - x y^2/2), from the number whose bits are half of those of x, which is 3.5 % off at most
 /// (Lomont 2003, "Fast inverse square root"; the constant is the one for double): 4.6e-6 after the second step, then 3.2e-11, then
 /// rounding. Square root and division of the processor would take four times as long.
-KARDAN_INLINE Pack inverse_sqrt(const Pack& x) {
+KARDAN_INLINE Pack inverse_sqrt_estimate(const Pack& x) {
   typedef std::uint64_t Bits __attribute__((vector_size(sizeof(Pack::Vector))));
-  Pack y(Pack::Vector(Bits{} + 0x5fe6eb50c7b537a9 - ((Bits)x.v >> 1)));
-  const Pack half = x * Pack(0.5);
-  for (int i = 0; i < 4; ++i) y = y * (Pack(1.5) - half * y * y);
+  return Pack(Pack::Vector(Bits{} + 0x5fe6eb50c7b537a9 - ((Bits)x.v >> 1)));
+}
+template <class R>
+KARDAN_INLINE R inverse_sqrt_by_newton(const R& x, R y) {
+  const R half = x * R(0.5);
+  for (int i = 0; i < 4; ++i) y = y * (R(1.5) - half * y * y);
   return y;
 }
+KARDAN_INLINE Pack inverse_sqrt(const Pack& x) { return inverse_sqrt_by_newton(x, inverse_sqrt_estimate(x)); }
 
 /// Natural logarithm; relative error below 1e-15 away from x = 1, absolute below 1e-16 next to it. x positive and normal.
 /// x = 2^k m with m in [1/sqrt 2, sqrt 2), log m = 2 artanh((m - 1)/(m + 1)) by its series.

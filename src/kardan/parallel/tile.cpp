@@ -158,9 +158,13 @@ SlotSum::SlotSum(const TileMesh& mesh, std::size_t node_count, std::size_t compo
 void SlotSum::add_to(std::vector<Vec3>& force, std::vector<Vec3>& moment, NodeIndex begin, NodeIndex end) const {
   const bool with_moments = components_ == 6;
   auto i = static_cast<std::size_t>(std::lower_bound(nodes_.begin(), nodes_.end(), begin) - nodes_.begin());
-  constexpr std::size_t ahead = 48;  // slots that are asked for before their turn: a node's lie in different tiles
+  constexpr std::size_t ahead = 48;  // slots and sums that are asked for before their turn: a node's slots lie in different tiles
   for (; i < nodes_.size() && nodes_[i] < end; ++i) {
     if (first_[i] + ahead < slot_.size()) __builtin_prefetch(values_.data() + slot_[first_[i] + ahead] * components_);
+    if (i + ahead < nodes_.size()) {
+      __builtin_prefetch(&force[nodes_[i + ahead]], 1);
+      if (with_moments) __builtin_prefetch(&moment[nodes_[i + ahead]], 1);
+    }
     Vec3 f, m;
     for (std::uint32_t k = first_[i]; k < first_[i + 1]; ++k) {
       const double* s = values_.data() + slot_[k] * components_;

@@ -15,6 +15,7 @@ namespace kardan {
 namespace {
 
 constexpr std::size_t chunk_nodes = 1024;  ///< forces, velocities and slots of a chunk: some 200 kB
+constexpr std::size_t nodes_ahead = 48;    ///< whose vectors are asked for before their turn
 /// Fewer chunks than this are moved by one thread: waking the others costs more than it saves.
 constexpr std::size_t parallel_threshold = 8;
 
@@ -157,6 +158,10 @@ double NodeMover::kick_chunk(const Chunk& chunk, State& state, bool looked_at) c
   bool good = true;
   for (std::size_t k = chunk.first_free; k < chunk.end_free; ++k) {
     const std::size_t i = at(free_[k]);
+    if (const std::size_t soon = k + nodes_ahead; soon < free_.size()) {
+      __builtin_prefetch(&nodes.v[at(free_[soon])], 1);
+      if (inverse_inertia_[soon] != 0) __builtin_prefetch(&nodes.omega[at(free_[soon])], 1);
+    }
     const double square = accelerate(nodes.v[i], nodes.force[i], kick * inverse_mass_[k], looked_at ? &nodes.v_now[i] : nullptr);
     good &= std::isfinite(square);
     largest = std::max(largest, square);
@@ -229,6 +234,10 @@ void NodeMover::drift(State& state) {
   find_fastest([&](const Chunk& chunk) {
     double largest = 0;
     for (std::size_t k = chunk.first_free; k < chunk.end_free; ++k) {
+      if (const std::size_t soon = k + nodes_ahead; soon < free_.size()) {
+        __builtin_prefetch(&nodes.v[at(free_[soon])], 0);
+        __builtin_prefetch(&nodes.x[at(free_[soon])], 1);
+      }
       const Vec3 v = nodes.v[at(free_[k])];
       nodes.x[at(free_[k])] += v * dt;
       largest = std::max(largest, dot(v, v));

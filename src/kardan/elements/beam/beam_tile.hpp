@@ -75,7 +75,7 @@ KARDAN_INLINE void gather(const TileWork& work, const std::uint16_t* connectivit
 KARDAN_INLINE void scatter(const TileWork& work, const std::uint16_t* connectivity, std::size_t lanes, const BeamBlock& block) {
   for (std::size_t a = 0; a < 2; ++a) {
     for (std::size_t l = 0; l < lanes; ++l) {
-      double* f = work.force + 6 * connectivity[a * block_lanes + l];
+      double* f = work.sum + sum_stride(6) * connectivity[a * block_lanes + l];
       for (std::size_t c = 0; c < 6; ++c) f[c] -= block.force[a][c][l];
     }
   }
@@ -88,7 +88,7 @@ void beam_tile(TileWork& work) {
   const Formulation formulation(p);
   const std::size_t history_size = beam_history::count + static_cast<std::size_t>(p.points) * formulation.point_values();
   BeamBlock block;
-  for_each_block<2>(work, 6, history_size, block, [&](const std::uint16_t* connectivity, std::size_t lanes, double* history) {
+  for_each_block<2, 6>(work, history_size, block, [&](const std::uint16_t* connectivity, std::size_t lanes, double* history) {
     gather(work, connectivity, block);
     for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) beam_pack<Pack>(p, formulation, work.step, block, history, l);
     scatter(work, connectivity, lanes, block);

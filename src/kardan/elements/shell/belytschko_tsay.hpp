@@ -28,6 +28,7 @@
 // hourglass forces then do no work in a rigid rotation and have no resultant moment. (LS-DYNA leaves this term out.)
 #pragma once
 
+#include "kardan/base/pack_pair.hpp"
 #include "kardan/base/pack_trio.hpp"
 #include "kardan/base/vec3.hpp"
 #include "kardan/elements/shell/shell_kernel.hpp"
@@ -71,6 +72,17 @@ KARDAN_INLINE ShellAxes<R> shell_axes(const Vec3T<R> (&p)[4]) {
   s.hy = dot(h, s.e2);
   for (int i = 0; i < 2; ++i) s.a[i] = s.hx * s.b1[i] + s.hy * s.b2[i];
   return s;
+}
+
+/// The axes on two geometries, computed side by side: either is a long chain of operations, of which the processor overlooks a part.
+KARDAN_INLINE void shell_axes(const Vec3T<Pack> (&p)[4], const Vec3T<Pack> (&q)[4], ShellAxes<Pack>& of_p, ShellAxes<Pack>& of_q) {
+  const auto both = [](const Vec3T<Pack>& a, const Vec3T<Pack>& b) { return Vec3T<PackPair>{{a.x, b.x}, {a.y, b.y}, {a.z, b.z}}; };
+  const Vec3T<PackPair> x[4] = {both(p[0], q[0]), both(p[1], q[1]), both(p[2], q[2]), both(p[3], q[3])};
+  const ShellAxes<PackPair> s = shell_axes(x);
+  const auto a = [](const Vec3T<PackPair>& v) { return Vec3T<Pack>{v.x.a, v.y.a, v.z.a}; };
+  const auto b = [](const Vec3T<PackPair>& v) { return Vec3T<Pack>{v.x.b, v.y.b, v.z.b}; };
+  of_p = {a(s.e1), a(s.e2), a(s.e3), {s.b1[0].a, s.b1[1].a}, {s.b2[0].a, s.b2[1].a}, s.hx.a, s.hy.a, {s.a[0].a, s.a[1].a}, s.area.a, s.gamma_z.a};
+  of_q = {b(s.e1), b(s.e2), b(s.e3), {s.b1[0].b, s.b1[1].b}, {s.b2[0].b, s.b2[1].b}, s.hx.b, s.hy.b, {s.a[0].b, s.a[1].b}, s.area.b, s.gamma_z.b};
 }
 
 /// What a block's elements report and give to their nodes.
@@ -211,7 +223,12 @@ struct ThicknessPoints {
   template <bool Elastic>
   KARDAN_INLINE bool add_one(int i, ShellResultants<R>& t) const {
     double* const h = values(i);
-    ask_for(h + next, shell_point_values(law.history()));
+    if constexpr (Elastic) {
+      ask_for(h + next, 5);
+      Law::ask_for_elastic_step(h + next + 5 * block_lanes);
+    } else {
+      ask_for(h + next, shell_point_values(law.history()));
+    }
     const R z = height(i), w = weight(i);
     ShellPoint<R> point = at(z, h);
     const R old_sum = point.stress.xx + point.stress.yy, old_work = contraction(point.stress, point.strain);
@@ -355,7 +372,8 @@ KARDAN_INLINE void shell_pack(const ShellProperties& p, const Law& law, const Ti
   const Vec3T<R> x[4] = {gathered(0, 0), gathered(1, 0), gathered(2, 0), gathered(3, 0)};
   const Vec3T<R> v[4] = {gathered(0, 1), gathered(1, 1), gathered(2, 1), gathered(3, 1)};
   const Vec3T<R> middle[4] = {x[0] - v[0] * half_dt, x[1] - v[1] * half_dt, x[2] - v[2] * half_dt, x[3] - v[3] * half_dt};
-  const ShellAxes<R> before = shell_axes(middle), now = shell_axes(x);  // side by side: either is a long chain of operations
+  ShellAxes<R> before, now;
+  shell_axes(middle, x, before, now);
   R hg[5];
   ShellResultants<R> t;
   {
@@ -380,13 +398,13 @@ KARDAN_INLINE void for_each_shell_pack(TileWork& work, ElementPack&& pack) {
   const ShellProperties& p = *static_cast<const ShellProperties*>(work.properties);
   const Law law(p.law);
   ShellBlock block;
-  for_each_block<4>(work, 6, shell_history_size(p, law.history()), block,
-                    [&](const std::uint16_t* connectivity, std::size_t, double* history) {
-                      for (std::size_t first = 0; first < block_lanes; first += Pack::lanes) {
-                        pack(p, law, connectivity, block, history, first);
-                      }
-                      block.force.scatter(connectivity, block.alive, work.force);
-                    });
+  for_each_block<4, 6>(work, shell_history_size(p, law.history()), block,
+                       [&](const std::uint16_t* connectivity, std::size_t, double* history) {
+                         for (std::size_t first = 0; first < block_lanes; first += Pack::lanes) {
+                           pack(p, law, connectivity, block, history, first);
+                         }
+                         block.force.scatter(connectivity, block.alive, work.sum);
+                       });
 }
 
 template <class Law>

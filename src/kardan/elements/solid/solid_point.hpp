@@ -211,9 +211,9 @@ KARDAN_INLINE void solid_tile(TileWork& work, F&& pack) {
   const Law law(p.law);
   SolidBlock<Nodes, Components> block;
   const std::size_t values = solid_history::own + OwnValues + Points * (6 + law.history());
-  for_each_block<Nodes>(work, Components, values, block, [&](const std::uint16_t* connectivity, std::size_t, double* history) {
+  for_each_block<Nodes, Components>(work, values, block, [&](const std::uint16_t* connectivity, std::size_t, double* history) {
     for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) pack(p, law, PackPlace{work, connectivity, l}, block, history + l);
-    block.force.scatter(connectivity, block.alive, work.force);
+    block.force.scatter(connectivity, block.alive, work.sum);
   });
 }
 

@@ -154,15 +154,16 @@ std::array<Vec3, 2> TileElements::force_on(Index element, std::size_t a) const {
   return {vector(0), c == 6 ? vector(3) : Vec3{}};
 }
 
-void TileElements::run_tile(std::size_t t, const State& state, AlignedVector<double>& scratch) {
+void TileElements::run_tile(std::size_t t, const State& state, Scratch& scratch) {
   const Tile& tile = mesh_.tiles[t];
   const bool turns = input_.components == 6;
   const std::size_t stride = node_stride(input_.components);
-  scratch.resize(std::max(scratch.size(), tile.nodes * stride));
+  scratch.node.resize(std::max(scratch.node.size(), tile.nodes * stride));
+  scratch.sum.resize(std::max(scratch.sum.size(), tile.nodes * sum_stride(input_.components)), 0.0);
   const NodeIndex* node = mesh_.node.data() + tile.first_node;
   for (std::size_t k = 0; k < tile.nodes; ++k) {
     const Vec3 &x = state.nodes.x[node[k]], &v = state.nodes.v[node[k]];
-    double* local = scratch.data() + stride * k;
+    double* local = scratch.node.data() + stride * k;
     std::memcpy(local, &x, sizeof x);
     std::memcpy(local + 4, &v, sizeof v);
     if (!node_values_.empty()) local[3] = node_values_[tile.first_node + k];
@@ -174,7 +175,8 @@ void TileElements::run_tile(std::size_t t, const State& state, AlignedVector<dou
   work.properties = part.properties.get();
   work.connectivity = mesh_.connectivity.data() + first * mesh_.nodes_per_element;
   work.elements = tile.elements;
-  work.node = scratch.data();
+  work.node = scratch.node.data();
+  work.sum = scratch.sum.data();
   work.nodes = tile.nodes;
   if (t + 1 < mesh_.tiles.size()) {
     const Tile& next = mesh_.tiles[t + 1];
@@ -194,6 +196,7 @@ void TileElements::run_tile(std::size_t t, const State& state, AlignedVector<dou
   if (!step_factor_.empty() && !step_factor_[t].empty()) work.step_factor = step_factor_[t].data();
   if (!watched_begin_.empty() && watched_begin_[t] != npos) work.element_force = watched_force_.data() + watched_begin_[t];
   work.force = slots_.slots(tile);
+  work.past_caches = history_.size() > beyond_caches;
   part.kernel(work);
   internal_[t] += work.internal_increment;
   if (part.can_fail) count_deleted(t);

@@ -164,12 +164,18 @@ class TileElements {
 
  private:
   static constexpr double scaling_tolerance = 1e-12;  ///< of the mass: what is less is rounding, and would add up over the cycles
+  /// Values in the histories, of which so many reach no cache from one cycle to the next: 128 MiB.
+  static constexpr std::size_t beyond_caches = std::size_t{1} << 24;
   static constexpr std::size_t npos = static_cast<std::size_t>(-1);
 
   /// What a tile reports of a cycle.
   struct Outcome {
     double time_step = 0;
     std::size_t governing = 0, broken = 0;
+  };
+  /// Work space of the tile that a thread is at: TileWork::node and ::sum.
+  struct Scratch {
+    AlignedVector<double> node, sum;
   };
   struct Place {
     std::size_t tile = 0, element = 0;
@@ -182,7 +188,7 @@ class TileElements {
   }
   Place find(Index element) const;
   void count_deleted(std::size_t tile);
-  void run_tile(std::size_t tile, const State& state, AlignedVector<double>& scratch);
+  void run_tile(std::size_t tile, const State& state, Scratch& scratch);
   [[noreturn]] void report_broken(const Model& model, const State& state, Index element, const std::string& fault) const;
 
   TileElementsInput input_;
@@ -204,7 +210,7 @@ class TileElements {
   std::vector<double> eroded_;                ///< internal energies of deleted elements, likewise
   std::vector<std::int64_t> deleted_;
   std::vector<Outcome> outcome_;              ///< by tile
-  std::vector<AlignedVector<double>> scratch_; ///< by thread
+  std::vector<Scratch> scratch_;              ///< by thread
   Shares shares_;                              ///< of the tiles
   std::vector<Index> place_;                  ///< by element of the model: block * lanes + lane, or none
   std::vector<Index> tile_of_block_;

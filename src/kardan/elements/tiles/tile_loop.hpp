@@ -30,6 +30,8 @@ struct Inlined {
   KARDAN_INLINE bool elastic_step(Point& p, const double* values) const {
     return law.elastic_step(p, values);
   }
+  /// Asks the memory for what elastic_step() will read of a point with these values.
+  KARDAN_INLINE static void ask_for_elastic_step(const double* values) { ask_for(values + Law::elastic_step_reads * block_lanes, 1); }
 };
 
 /// Any law, called through its pointer.
@@ -151,20 +153,49 @@ KARDAN_INLINE void set_alive(std::size_t lanes, const double* alive, BlockReport
 }
 
 /// Asks the memory for the share of block b in the nodes ahead. Every second one: the vectors of two neighbours lie on one or two lines.
+/// The shares are equal, so that the processor foresees the end of the loop.
 KARDAN_INLINE void ask_for_nodes(const NodesAhead& ahead, std::size_t b, std::size_t blocks) {
-  const std::size_t end = ahead.count * (b + 1) / blocks;
-  for (std::size_t k = ahead.count * b / blocks; k < end; k += 2) {
+  const std::size_t share = (ahead.count + 2 * blocks - 1) / (2 * blocks) * 2, begin = share * b;
+  const std::size_t end = ahead.count < begin + share ? ahead.count : begin + share;
+  for (std::size_t k = begin; k < end; k += 2) {
     for (const Vec3* vectors : ahead.vectors) {
       if (vectors) __builtin_prefetch(vectors + ahead.node[k], 0, 2);
     }
   }
 }
 
+/// One value into memory; past_caches: without asking the memory for the line first.
+template <bool PastCaches>
+KARDAN_INLINE void put(double value, double* to) {
+#if defined(__x86_64__)
+  if constexpr (PastCaches) {
+    long long bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    _mm_stream_si64(reinterpret_cast<long long*>(to), bits);
+    return;
+  }
+#endif
+  *to = value;
+}
+
+/// The sums of a tile's nodes into their slots; the sums are zero then, for the next tile.
+template <std::size_t Components, bool PastCaches>
+KARDAN_INLINE void fill_slots(const TileWork& work) {
+  double *sum = work.sum, *slot = work.force;
+  const double* const end = slot + Components * work.nodes;
+  for (; slot != end; slot += Components, sum += sum_stride(Components)) {
+    for (std::size_t c = 0; c < Components; ++c) put<PastCaches>(sum[c], slot + c);
+    for (std::size_t c = 0; c < sum_stride(Components); c += 4) store_as(Four{}, sum + c);
+  }
+#if defined(__x86_64__)
+  if constexpr (PastCaches) _mm_sfence();
+#endif
+}
+
 /// Runs `element_block(connectivity, lanes, history)` over the blocks of a tile and gathers what the block reports. `block` is the
 /// formulation's work space, which element_block fills; alive is set before, also 0 in the empty lanes of the last block.
-template <std::size_t NodesPerElement, class Block, class F>
-KARDAN_INLINE void for_each_block(TileWork& work, std::size_t components, std::size_t history_size, Block& block, F&& element_block) {
-  std::memset(work.force, 0, work.nodes * components * sizeof(double));
+template <std::size_t NodesPerElement, std::size_t Components, class Block, class F>
+KARDAN_INLINE void for_each_block(TileWork& work, std::size_t history_size, Block& block, F&& element_block) {
   work.broken = 0;
   TileReport report;
   const std::size_t blocks = (work.elements + block_lanes - 1) / block_lanes;
@@ -174,9 +205,14 @@ KARDAN_INLINE void for_each_block(TileWork& work, std::size_t components, std::s
     set_alive(lanes, work.alive ? work.alive + first : nullptr, block);
     element_block(work.connectivity + b * NodesPerElement * block_lanes, lanes, work.history + b * history_size * block_lanes);
     if (work.element_force) {
-      copy_forces(block.force, block.alive, work.element_force + b * NodesPerElement * components * block_lanes);
+      copy_forces(block.force, block.alive, work.element_force + b * NodesPerElement * Components * block_lanes);
     }
     report.add(work, b, block);
+  }
+  if (work.past_caches) {
+    fill_slots<Components, true>(work);
+  } else {
+    fill_slots<Components, false>(work);
   }
   report.finish(work);
 }

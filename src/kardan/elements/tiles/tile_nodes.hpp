@@ -10,10 +10,12 @@
 
 #include "kardan/base/simd.hpp"
 #include "kardan/base/vec3.hpp"
+#include "kardan/elements/tiles/tile_work.hpp"
 
 namespace kardan::KARDAN_ISA_NAMESPACE {
 
 typedef double Four __attribute__((vector_size(4 * sizeof(double))));
+typedef double Eight __attribute__((vector_size(8 * sizeof(double))));
 typedef double Two __attribute__((vector_size(2 * sizeof(double))));
 
 template <class V, class T>
@@ -68,22 +70,37 @@ KARDAN_INLINE Vec3T<Pack> gather_vectors(const double* base, const std::uint16_t
   return r;
 }
 
+#if defined(__AVX512F__)
+/// a, b, c, d of lanes 0 and 4, 1 and 5, 2 and 6, 3 and 7, of each lane next to one another.
+struct PairsOfFour {
+  Pack::Vector lanes_0_4, lanes_1_5, lanes_2_6, lanes_3_7;
+
+  KARDAN_INLINE PairsOfFour(const Pack& a, const Pack& b, const Pack& c, const Pack& d) {
+    const Pack::Vector ab02 = __builtin_shufflevector(a.v, b.v, 0, 8, 2, 10, 4, 12, 6, 14);
+    const Pack::Vector ab13 = __builtin_shufflevector(a.v, b.v, 1, 9, 3, 11, 5, 13, 7, 15);
+    const Pack::Vector cd02 = __builtin_shufflevector(c.v, d.v, 0, 8, 2, 10, 4, 12, 6, 14);
+    const Pack::Vector cd13 = __builtin_shufflevector(c.v, d.v, 1, 9, 3, 11, 5, 13, 7, 15);
+    lanes_0_4 = __builtin_shufflevector(ab02, cd02, 0, 1, 8, 9, 4, 5, 12, 13);
+    lanes_1_5 = __builtin_shufflevector(ab13, cd13, 0, 1, 8, 9, 4, 5, 12, 13);
+    lanes_2_6 = __builtin_shufflevector(ab02, cd02, 2, 3, 10, 11, 6, 7, 14, 15);
+    lanes_3_7 = __builtin_shufflevector(ab13, cd13, 2, 3, 10, 11, 6, 7, 14, 15);
+  }
+};
+#endif
+
 /// Writes a, b, c, d of every lane next to one another: lane l to to[l * Stride].
 template <std::size_t Stride>
 KARDAN_INLINE void spread(const Pack& a, const Pack& b, const Pack& c, const Pack& d, double* to) {
 #if defined(__AVX512F__)
-  const Pack::Vector ab02 = __builtin_shufflevector(a.v, b.v, 0, 8, 2, 10, 4, 12, 6, 14);
-  const Pack::Vector ab13 = __builtin_shufflevector(a.v, b.v, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Pack::Vector cd02 = __builtin_shufflevector(c.v, d.v, 0, 8, 2, 10, 4, 12, 6, 14);
-  const Pack::Vector cd13 = __builtin_shufflevector(c.v, d.v, 1, 9, 3, 11, 5, 13, 7, 15);
+  const PairsOfFour p(a, b, c, d);
   const auto both = [&](const Pack::Vector& v, std::size_t lane) {
     store_as(Four(__builtin_shufflevector(v, v, 0, 1, 2, 3)), to + lane * Stride);
     store_as(Four(__builtin_shufflevector(v, v, 4, 5, 6, 7)), to + (lane + 4) * Stride);
   };
-  both(__builtin_shufflevector(ab02, cd02, 0, 1, 8, 9, 4, 5, 12, 13), 0);
-  both(__builtin_shufflevector(ab13, cd13, 0, 1, 8, 9, 4, 5, 12, 13), 1);
-  both(__builtin_shufflevector(ab02, cd02, 2, 3, 10, 11, 6, 7, 14, 15), 2);
-  both(__builtin_shufflevector(ab13, cd13, 2, 3, 10, 11, 6, 7, 14, 15), 3);
+  both(p.lanes_0_4, 0);
+  both(p.lanes_1_5, 1);
+  both(p.lanes_2_6, 2);
+  both(p.lanes_3_7, 3);
 #elif defined(__AVX__)
   const Four ab02 = __builtin_shufflevector(a.v, b.v, 0, 4, 2, 6), ab13 = __builtin_shufflevector(a.v, b.v, 1, 5, 3, 7);
   const Four cd02 = __builtin_shufflevector(c.v, d.v, 0, 4, 2, 6), cd13 = __builtin_shufflevector(c.v, d.v, 1, 5, 3, 7);
@@ -102,10 +119,30 @@ KARDAN_INLINE void spread(const Pack& a, const Pack& b, const Pack& c, const Pac
 #endif
 }
 
+/// Writes force and moment of every lane next to one another, lane l to to[8 l]; what stands behind them is no matter.
+KARDAN_INLINE void spread_six(const Vec3T<Pack>& f, const Vec3T<Pack>& m, double* to) {
+#if defined(__AVX512F__)
+  const PairsOfFour p(f.x, f.y, f.z, m.x);
+  const Pack::Vector even = __builtin_shufflevector(m.y.v, m.z.v, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Pack::Vector odd = __builtin_shufflevector(m.y.v, m.z.v, 1, 9, 3, 11, 5, 13, 7, 15);
+  store_as(Pack::Vector(__builtin_shufflevector(p.lanes_0_4, even, 0, 1, 2, 3, 8, 9, 8, 9)), to);
+  store_as(Pack::Vector(__builtin_shufflevector(p.lanes_1_5, odd, 0, 1, 2, 3, 8, 9, 8, 9)), to + 8);
+  store_as(Pack::Vector(__builtin_shufflevector(p.lanes_2_6, even, 0, 1, 2, 3, 10, 11, 10, 11)), to + 16);
+  store_as(Pack::Vector(__builtin_shufflevector(p.lanes_3_7, odd, 0, 1, 2, 3, 10, 11, 10, 11)), to + 24);
+  store_as(Pack::Vector(__builtin_shufflevector(p.lanes_0_4, even, 4, 5, 6, 7, 12, 13, 12, 13)), to + 32);
+  store_as(Pack::Vector(__builtin_shufflevector(p.lanes_1_5, odd, 4, 5, 6, 7, 12, 13, 12, 13)), to + 40);
+  store_as(Pack::Vector(__builtin_shufflevector(p.lanes_2_6, even, 4, 5, 6, 7, 14, 15, 14, 15)), to + 48);
+  store_as(Pack::Vector(__builtin_shufflevector(p.lanes_3_7, odd, 4, 5, 6, 7, 14, 15, 14, 15)), to + 56);
+#else
+  spread<8>(f.x, f.y, f.z, m.x, to);
+  spread<8>(m.y, m.z, Pack(), Pack(), to + 4);
+#endif
+}
+
 /// Forces of a block's elements on their nodes, as the nodes have them: [node of the element][lane][force and moment].
 template <std::size_t Nodes, std::size_t Components>
 struct alignas(64) NodalForces {
-  static constexpr std::size_t stride = Components == 6 ? 8 : 4;
+  static constexpr std::size_t stride = sum_stride(Components);
   double value[Nodes][block_lanes][stride];
 
   /// Forces (and moments) on node a of the lanes from `first` on.
@@ -113,17 +150,16 @@ struct alignas(64) NodalForces {
     spread<stride>(f.x, f.y, f.z, Pack(), value[a][first]);
   }
   KARDAN_INLINE void set(std::size_t a, std::size_t first, const Vec3T<Pack>& f, const Vec3T<Pack>& m) {
-    spread<stride>(f.x, f.y, f.z, m.x, value[a][first]);
-    spread<stride>(m.y, m.z, Pack(), Pack(), value[a][first] + 4);
+    spread_six(f, m, value[a][first]);
   }
-  /// Takes the forces of the lanes that are alive from the slots of the tile's nodes: what acts on the element acts against its node.
-  KARDAN_INLINE void scatter(const std::uint16_t* connectivity, const double* alive, double* slots) const {
+  /// Takes the forces of the lanes that are alive from the sums of the tile's nodes: what acts on the element acts against its node.
+  KARDAN_INLINE void scatter(const std::uint16_t* connectivity, const double* alive, double* sums) const {
     bool all = true;
     for (std::size_t l = 0; l < block_lanes; l += Pack::lanes) all &= !Pack::any(~(Pack::load(alive + l) > Pack(0.0)));
     const auto of_lanes = [&](auto&& lives) {
       for (std::size_t a = 0; a < Nodes; ++a) {
         for (std::size_t l = 0; l < block_lanes; ++l) {
-          if (lives(l)) take(connectivity[a * block_lanes + l], value[a][l], slots);
+          if (lives(l)) take(connectivity[a * block_lanes + l], value[a][l], sums);
         }
       }
     };
@@ -135,15 +171,16 @@ struct alignas(64) NodalForces {
   }
 
  private:
-  KARDAN_INLINE static void take(std::size_t node, const double* own, double* slots) {
-    double* const slot = slots + Components * node;
+  KARDAN_INLINE static void take(std::size_t node, const double* own, double* sums) {
+    double* const sum = sums + stride * node;
+#if defined(__AVX512F__)
     if constexpr (Components == 6) {
-      store_as(load_as<Four>(slot) - load_as<Four>(own), slot);
-      store_as(load_as<Two>(slot + 4) - load_as<Two>(own + 4), slot + 4);
-    } else {
-      store_as(load_as<Two>(slot) - load_as<Two>(own), slot);
-      slot[2] -= own[2];
+      store_as(load_as<Eight>(sum) - load_as<Eight>(own), sum);
+      return;
     }
+#endif
+    store_as(load_as<Four>(sum) - load_as<Four>(own), sum);
+    if constexpr (Components == 6) store_as(load_as<Two>(sum + 4) - load_as<Two>(own + 4), sum + 4);
   }
 };
 

@@ -16,6 +16,10 @@ namespace kardan {
 /// velocity.
 constexpr std::size_t node_stride(std::size_t components) { return components == 6 ? 12 : 8; }
 
+/// Doubles of a tile's node in the sums of its forces: a power of two, so that a node's never lie on two cache lines and those with
+/// moments are one pack of eight.
+constexpr std::size_t sum_stride(std::size_t components) { return components == 6 ? 8 : 4; }
+
 /// Nodes that the same thread will gather next.
 struct NodesAhead {
   const NodeIndex* node = nullptr;
@@ -42,7 +46,9 @@ struct TileWork {
   double* steps = nullptr;                      ///< [block][lane] out: stable step of each element; may be null
   double* element_force = nullptr;              ///< [block][node of the element][component][lane] out: forces that the nodes exert on each
                                                 ///< element; null where nobody asks
+  double* sum = nullptr;                        ///< [node][sum_stride] work space at a cache line; zero before and after
   double* force = nullptr;                      ///< [node][3 or 6] force (and moment) on the nodes; overwritten
+  bool past_caches = false;                     ///< the slots will have left the caches when they are read: write them past these
   double internal_increment = 0;                ///< out: work of the stresses over the step
   double hourglass_increment = 0;               ///< out
   double time_step = 0;                         ///< out: smallest stable step

@@ -35,6 +35,7 @@ namespace kardan {
 /// Constants of the law, ready for the kernel. A point keeps its effective plastic strain and its static yield stress.
 struct PlasticPlaneStress {
   static constexpr std::size_t history = 2;
+  static constexpr std::size_t elastic_step_reads = 1;  ///< place of the only value that elastic_step() reads
   static constexpr int iterations = 40;       ///< at most; far more than are needed
   static constexpr double tolerance = 1e-10;  ///< of q/Y - 1
   static constexpr double last_step = 5e-4;   ///< from |q/Y - 1| below this one more step is enough
