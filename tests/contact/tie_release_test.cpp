@@ -96,6 +96,43 @@ TEST(TieRelease, SegmentsOfDeletedElementsLetGo) {
     }
 }
 
+/// A web that is tied to a plate with its rotations: masses and rotary inertias come back, too, and the result is the same for any number of threads.
+TEST(TieRelease, RotationsLetGo) {
+  const auto web_on_plate = [](bool tied) {
+    Ties b;
+    const PartIndex floor = b.shell_part(test::steel, 0.02), web = b.shell_part(test::steel, 0.02);
+    b.plate(floor, 3, 3, {}, {1, 0, 0}, {0, 1, 0});
+    const NodeIndex edge = b.plate(web, 4, 3, {0.1, 0.55, 0.01}, {0.8, 0, 0}, {0, 0, 0.6});
+    if (tied) b.tie(Ties::side_of_nodes(Ties::range(edge, edge + 5)), {floor}, Holding::constrained_offset).tie.rotations = true;
+    b.spin({0.3, 0.2, 0}, {30, -20, 40}, {50, 20, -10});
+    b.model.control.time_step.scale = 0.45;
+    b.model.control.termination.end_time = 4e-4;
+    erode(b.model, floor);
+    return b.model;
+  };
+  const Outcome o = watch(web_on_plate(true));
+  EXPECT_EQ(o.before, 5);
+  EXPECT_EQ(o.after, 0);
+  EXPECT_LT(o.linear, 1e-12);
+  EXPECT_LT(o.energy, 2e-3);
+  Diagnostics diagnostics;
+  const Model model = web_on_plate(true), alone = web_on_plate(false);
+  const Solver without(alone, {}, diagnostics);
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 3}) {
+    Solver solver(model, {.threads = threads}, diagnostics);
+    solver.run();
+    hashes.push_back(solver.state().registry.hash());
+    const NodeState &now = solver.state().nodes, &own = without.state().nodes;
+    for (std::size_t n = 0; n < own.mass.size(); ++n) {
+      EXPECT_NEAR(now.mass[n], own.mass[n], 1e-12 * sum(own.mass)) << n;
+      EXPECT_NEAR(now.inertia[n], own.inertia[n], 1e-12 * sum(own.inertia)) << n;
+    }
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
 /// All elements of the tied nodes go: the ties end likewise.
 TEST(TieRelease, NodesWithoutElementsLetGo) {
   for (const Holding holding : {Holding::constraint, Holding::offset}) {
