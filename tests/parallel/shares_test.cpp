@@ -35,5 +35,18 @@ TEST(Shares, FewerNumbersThanThreads) {
   EXPECT_EQ(met, 2);
 }
 
+TEST(Shares, CutByWeightGivesEachAboutTheSame) {
+  std::vector<double> weights(100, 1.0);
+  for (std::size_t i = 0; i < 10; ++i) weights[i] = 50;  // 590 in all
+  EXPECT_EQ(cut_by_weight(weights, 2), (std::vector<std::size_t>{6, 100}));
+  EXPECT_EQ(cut_by_weight(weights, 1), (std::vector<std::size_t>{100}));
+  EXPECT_EQ(cut_by_weight({}, 3), (std::vector<std::size_t>{0, 0, 0}));
+  Shares shares;
+  shares.start(cut_by_weight(weights, 3));
+  std::vector<int> met(100, 0);
+  for (std::size_t t = 0; t < 3; ++t) shares.run(t, [&](std::size_t i) { ++met[i]; });
+  for (const int count : met) EXPECT_EQ(count, 1);
+}
+
 }  // namespace
 }  // namespace kardan

@@ -2,6 +2,7 @@
 //
 // Motion is measured against a common translation with the nodes' mean velocity (of the last renewal), so that a car that drives past costs nothing.
 // Two nodes have approached each other by at most 2 (travel now - travel then), and since the last renewal by at most twice the largest way.
+// Everything is counted from the last renewal.
 #pragma once
 
 #include <utility>
@@ -25,7 +26,7 @@ class MotionMeter {
   /// Whether some node has moved by more than `way` since renew().
   bool exceeds(double way, const std::vector<Vec3>& x);
 
-  double travel() const { return travel_; }            ///< sum over the steps of the largest way; never reset
+  double travel() const { return travel_; }            ///< sum over the steps since renew() of the largest way
   double last_travel() const { return last_travel_; }  ///< of the last step
 
  private:

@@ -11,7 +11,7 @@ namespace kardan {
 namespace {
 
 /// The list of candidates is renewed about so often; the margin follows.
-constexpr double cycles_between_searches = 25;
+constexpr double cycles_between_searches = 100;
 constexpr double smallest_margin = 0.02, largest_margin = 0.5;  ///< parts of the segments' mean size
 
 std::vector<NodeIndex> union_of(const std::array<Surface, 2>& surfaces) {
@@ -87,8 +87,8 @@ void PenaltyContact::search(const State& state) {
     margin_ *= std::clamp(cycles_between_searches / static_cast<double>(cycles_), 0.5, 2.0);
     margin_ = std::clamp(margin_, smallest_margin * size_, largest_margin * size_);
   }
-  for (const auto& d : directions_) d->pass.search(state, margin_, hold_.held);
   meter_.renew(state.nodes.x, state.nodes.v);
+  for (const auto& d : directions_) d->pass.search(state, frame(state, born_ == 0), hold_.held);
   renew_ = false;
   releases_ = hold_.releases;
   cycles_ = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace kardan {
 
@@ -67,16 +68,19 @@ void PenaltyPass::drop_dead(const Model& model, const Alive& alive) {
   dead_node_ = dead_nodes(model, *nodes_, alive);
 }
 
-void PenaltyPass::search(const State& state, double margin, const std::vector<std::uint8_t>& held) {
-  std::vector<std::uint8_t> no_node = dead_node_, no_segment = dead_segment_;
+void PenaltyPass::search(const State& state, const TouchFrame& frame, const std::vector<std::uint8_t>& held) {
+  std::vector<std::uint8_t> left_out_node, left_out_segment;
   if (!held.empty()) {
-    for (std::size_t p = 0; p < no_node.size(); ++p) no_node[p] |= held[nodes_->nodes()[p].node];
-    for (std::size_t s = 0; s < no_segment.size(); ++s)
-      for (const NodeIndex n : segments_->segments()[s].nodes) no_segment[s] |= held[n];
+    left_out_node = dead_node_;
+    left_out_segment = dead_segment_;
+    for (std::size_t p = 0; p < left_out_node.size(); ++p) left_out_node[p] |= held[nodes_->nodes()[p].node];
+    for (std::size_t s = 0; s < left_out_segment.size(); ++s)
+      for (const NodeIndex n : segments_->segments()[s].nodes) left_out_segment[s] |= held[n];
   }
+  const std::vector<std::uint8_t>&no_node = held.empty() ? dead_node_ : left_out_node, &no_segment = held.empty() ? dead_segment_ : left_out_segment;
   std::vector<std::pair<Index, Index>> always;
   for (const Chunk& chunk : chunks_)
-    for (const auto& pair : deep_pairs(chunk.touches, *nodes_, *segments_, margin)) always.push_back(pair);
+    for (const auto& pair : deep_pairs(chunk.touches, *nodes_, *segments_, frame.margin)) always.push_back(pair);
   SearchInput input;
   input.nodes = nodes_;
   input.segments = segments_;
@@ -84,22 +88,30 @@ void PenaltyPass::search(const State& state, double margin, const std::vector<st
   input.body = &state.nodes.body;
   input.dead_node = &no_node;
   input.dead_segment = &no_segment;
-  input.margin = margin;
+  input.margin = frame.margin;
+  input.awake = frame.birth ? std::numeric_limits<double>::infinity() : 2 * frame.last_travel;
   std::erase_if(always, [&](const auto& pair) {
     const auto& corner = segments_->segments()[pair.second].nodes;
     return std::find(corner.begin(), corner.end(), nodes_->nodes()[pair.first].node) != corner.end() ||
            no_segment[pair.second] || no_node[pair.first];
   });
   search_.find(input, always, candidates_);
-  wake_.assign(candidates_.segment.size(), 0.0);
-  active_.clear();
-  for (Chunk& chunk : chunks_) {
-    chunk.first_active = active_.size();
-    for (Index p = chunk.begin; p < chunk.end; ++p)
-      if (candidates_.first[p] != candidates_.first[p + 1]) active_.push_back(p);
-    chunk.end_active = active_.size();
-  }
-  node_wake_.assign(active_.size(), 0.0);
+  const auto count = static_cast<std::ptrdiff_t>(chunks_.size());
+#pragma omp parallel for schedule(static) if (count > 2)
+  for (std::ptrdiff_t c = 0; c < count; ++c) list_active(chunks_[static_cast<std::size_t>(c)]);
+  weights_.clear();
+  for (const Chunk& chunk : chunks_)
+    weights_.push_back(static_cast<double>(chunk.end - chunk.begin + candidates_.first[chunk.end] - candidates_.first[chunk.begin]));
+}
+
+/// Nodes with candidates. What touched in the last cycle is looked at with all of its candidates: its way past the mid-surface must not be missed.
+void PenaltyPass::list_active(Chunk& chunk) {
+  chunk.active.clear();
+  for (Index p = chunk.begin; p < chunk.end; ++p)
+    if (candidates_.first[p] != candidates_.first[p + 1]) chunk.active.push_back(p);
+  chunk.wake.assign(chunk.active.size(), 0.0F);
+  for (const Touch& t : chunk.touches)
+    std::fill(candidates_.wake.begin() + candidates_.first[t.place], candidates_.wake.begin() + candidates_.first[t.place + 1], 0.0F);
 }
 
 void PenaltyPass::add_work(const State& state, const Touch& touch, PassEnergy& energy) const {
@@ -153,24 +165,24 @@ void PenaltyPass::push(const TouchFrame& frame, const PenaltyLaw& law, const std
   }
 }
 
-void PenaltyPass::find_touches(const State& state, const TouchFrame& frame, TouchFinder& finder, Chunk& chunk) {
-  std::swap(chunk.touches, chunk.before);
+void PenaltyPass::find_touches(const State& state, const TouchFrame& frame, Desk& desk, Chunk& chunk) {
+  desk.before.assign(chunk.touches.begin(), chunk.touches.end());
   chunk.touches.clear();
   chunk.energy = {};
-  for (const Touch& t : chunk.before)
+  for (const Touch& t : desk.before)
     if (t.share > 0) add_work(state, t, chunk.energy);
-  auto memory = chunk.before.begin();
-  for (std::size_t a = chunk.first_active; a < chunk.end_active; ++a) {
-    const Index place = active_[a];
-    while (memory != chunk.before.end() && memory->place < place) ++memory;
+  auto memory = desk.before.begin();
+  for (std::size_t a = 0; a < chunk.active.size(); ++a) {
+    const Index place = chunk.active[a];
+    while (memory != desk.before.end() && memory->place < place) ++memory;
     auto end = memory;
-    while (end != chunk.before.end() && end->place == place) ++end;
-    if (memory == end && node_wake_[a] > frame.travel) continue;
+    while (end != desk.before.end() && end->place == place) ++end;
+    if (memory == end && chunk.wake[a] > frame.travel) continue;
     const auto begin = static_cast<std::size_t>(candidates_.first[place]);
     const std::size_t count = static_cast<std::size_t>(candidates_.first[place + 1]) - begin;
-    const std::span<double> wake(wake_.data() + begin, count);
-    finder.find(frame, place, {candidates_.segment.data() + begin, count}, wake, {memory, end}, chunk.touches);
-    node_wake_[a] = *std::min_element(wake.begin(), wake.end());
+    const std::span<float> wake(candidates_.wake.data() + begin, count);
+    desk.finder.find(frame, place, {candidates_.segment.data() + begin, count}, wake, {memory, end}, chunk.touches);
+    chunk.wake[a] = *std::min_element(wake.begin(), wake.end());
   }
 }
 
@@ -205,14 +217,17 @@ PassEnergy PenaltyPass::sum_energies() const {
 }
 
 PassEnergy PenaltyPass::evaluate(const State& state, const TouchFrame& frame, PenaltyLaw& law, const std::vector<double>& inverse_mass) {
-  while (finders_.size() < static_cast<std::size_t>(omp_get_max_threads())) finders_.emplace_back(*nodes_, *segments_);
-  const auto count = static_cast<std::ptrdiff_t>(chunks_.size());
+  const auto threads = static_cast<std::size_t>(omp_get_max_threads());
+  while (desks_.size() < threads) desks_.push_back({TouchFinder(*nodes_, *segments_), {}});
   const bool at_once = !law.shares_total();
-#pragma omp parallel for schedule(dynamic) if (count > 2)
-  for (std::ptrdiff_t c = 0; c < count; ++c) {
-    Chunk& chunk = chunks_[static_cast<std::size_t>(c)];
-    find_touches(state, frame, finders_[static_cast<std::size_t>(omp_get_thread_num())], chunk);
-    if (at_once) push_all(state, frame, law, inverse_mass, chunk);
+  shares_.start(cut_by_weight(weights_, threads));
+#pragma omp parallel if (chunks_.size() > 2)
+  {
+    const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+    shares_.run(thread, [&](std::size_t c) {
+      find_touches(state, frame, desks_[thread], chunks_[c]);
+      if (at_once) push_all(state, frame, law, inverse_mass, chunks_[c]);
+    });
   }
   if (!at_once) {
     law.scale_of_total = force_of_penetration(law);

@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "kardan/base/aligned.hpp"
 #include "kardan/contact/penalty_law.hpp"
 #include "kardan/contact/search.hpp"
 #include "kardan/contact/surface.hpp"
 #include "kardan/contact/touch_finder.hpp"
+#include "kardan/parallel/shares.hpp"
 #include "kardan/state/state.hpp"
 
 namespace kardan {
@@ -34,8 +36,8 @@ class PenaltyPass {
   const Surface& nodes() const { return *nodes_; }
   const Surface& segments() const { return *segments_; }
 
-  /// Lists the candidates anew. @param held  by node of the model: 1 leaves the node and its segments out; may be empty
-  void search(const State& state, double margin, const std::vector<std::uint8_t>& held);
+  /// Lists the candidates anew; `frame` is that of the cycle. @param held  by node of the model: 1 leaves the node and its segments out; may be empty
+  void search(const State& state, const TouchFrame& frame, const std::vector<std::uint8_t>& held);
   /// Touches and forces at t_n. @param inverse_mass  1/mass by node of the model, as stiffnesses see it
   /// @return energies of the step that ends at t_n
   PassEnergy evaluate(const State& state, const TouchFrame& frame, PenaltyLaw& law, const std::vector<double>& inverse_mass);
@@ -60,15 +62,22 @@ class PenaltyPass {
 
  private:
   /// Nodes begin <= place < end.
-  struct Chunk {
+  struct alignas(cache_line) Chunk {
     Index begin = 0, end = 0;
-    std::size_t first_active = 0, end_active = 0;  ///< into active_
-    std::vector<Touch> touches, before;            ///< at t_n, at t_{n-1}
+    std::vector<Index> active;         ///< places of nodes that have candidates
+    std::vector<float> wake;           ///< of them: travel before which none of the candidates can be touched
+    std::vector<Touch> touches;
     PassEnergy energy;
+  };
+  /// What a thread works with.
+  struct alignas(cache_line) Desk {
+    TouchFinder finder;
+    std::vector<Touch> before;         ///< touches of the cycle before
   };
 
   void take_stiffnesses();
-  void find_touches(const State& state, const TouchFrame& frame, TouchFinder& finder, Chunk& chunk);
+  void list_active(Chunk& chunk);
+  void find_touches(const State& state, const TouchFrame& frame, Desk& desk, Chunk& chunk);
   void push_all(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass, Chunk& chunk) const;
   double force_of_penetration(const PenaltyLaw& law) const;
   void push(const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass, std::size_t first, std::size_t end,
@@ -82,11 +91,10 @@ class PenaltyPass {
   std::vector<std::uint8_t> dead_segment_, dead_node_;   ///< by segment and by place of a node; empty where none is dead
   CandidateSearch search_;
   Candidates candidates_;
-  std::vector<double> wake_;          ///< by candidate: travel before which it cannot be touched
-  std::vector<Index> active_;         ///< places of nodes that have candidates
-  std::vector<double> node_wake_;     ///< likewise: smallest wake of its candidates
   std::vector<Chunk> chunks_;
-  std::vector<TouchFinder> finders_;  ///< one a thread
+  std::vector<double> weights_;       ///< of the chunks: about how much work each is
+  Shares shares_;
+  std::vector<Desk> desks_;           ///< one a thread
 };
 
 }  // namespace kardan

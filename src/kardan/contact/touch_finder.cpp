@@ -9,6 +9,7 @@ namespace {
 
 constexpr double same = 1e-9;            ///< distances closer than this part of the segment's size are one closest point
 constexpr double apart = 0.5, together = 0.766;  ///< cosines: two touches of full force, one touch
+constexpr double rounded_down = 1 - 1e-6;  ///< of travels, which are kept in single precision
 constexpr double explained_steps = 1.5;  ///< steps of the last relative motion that explain a new penetration
 constexpr double flush = 1e-3;           ///< part of a face's size by which a node of its plane may be in front of it: rounding, and sides that bulge
 constexpr double facing = -0.2, alike = 0.7;  ///< cosines of normals: faces that look at one another, faces that look the same way
@@ -52,7 +53,7 @@ bool TouchFinder::came_through(const Vec3& u, const Segment& s, std::span<const 
 }
 
 /// @return whether the place may be a touch; if not, `wake` says until when.
-bool TouchFinder::look(const TouchFrame& frame, const Vec3& x, double half_thickness, Index segment, double& wake,
+bool TouchFinder::look(const TouchFrame& frame, const Vec3& x, double half_thickness, Index segment, float& wake,
                        std::span<const Touch> memory, Place& p) const {
   const Segment& s = segments_->segments()[segment];
   std::array<Vec3, 4> corner;
@@ -67,7 +68,7 @@ bool TouchFinder::look(const TouchFrame& frame, const Vec3& x, double half_thick
   const bool outside = !s.one_sided || p.side >= 0;
   if (!all && (outside ? gap > reach : p.distance > reach + same * std::sqrt(s.area)) &&
       (memory.empty() || !came_through(p.closest.u, s, memory))) {
-    wake = frame.travel + (outside ? 0.5 * gap : 0.25 * p.distance);
+    wake = static_cast<float>((frame.travel + (outside ? 0.5 * gap : 0.25 * p.distance)) * rounded_down);
     return false;
   }
   p.segment = segment;
@@ -296,7 +297,7 @@ void TouchFinder::collect(Index place, std::vector<Touch>& out) const {
   }
 }
 
-void TouchFinder::find(const TouchFrame& frame, Index place, std::span<const Index> near, std::span<double> wake,
+void TouchFinder::find(const TouchFrame& frame, Index place, std::span<const Index> near, std::span<float> wake,
                        std::span<const Touch> memory, std::vector<Touch>& out) {
   const SurfaceNode& node = nodes_->nodes()[place];
   const Vec3& x = (*frame.x)[node.node];

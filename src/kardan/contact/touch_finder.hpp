@@ -35,7 +35,7 @@ struct TouchFrame {
   const std::vector<Vec3>* x = nullptr;   ///< at t_n, by node of the model
   const std::vector<Vec3>* v = nullptr;   ///< at t_{n-1/2}
   double dt = 0;                          ///< t_n - t_{n-1}
-  double travel = 0;                      ///< sum over the cycles of the largest way a node has moved (motion_meter.hpp)
+  double travel = 0;                      ///< sum over the cycles since the candidates were listed of the largest way a node has moved (motion_meter.hpp)
   double last_travel = 0;                 ///< of the last step
   double margin = 0;                      ///< every segment nearer than the thicknesses and this is looked at
   bool birth = false;                     ///< the contact's first cycle: what is inside is an initial penetration
@@ -49,7 +49,7 @@ class TouchFinder {
   /// travel before which they cannot be touched.
   /// @param memory  the node's touches of the last cycle
   /// @param out     gets the touches, without forces yet
-  void find(const TouchFrame& frame, Index place, std::span<const Index> near, std::span<double> wake, std::span<const Touch> memory,
+  void find(const TouchFrame& frame, Index place, std::span<const Index> near, std::span<float> wake, std::span<const Touch> memory,
             std::vector<Touch>& out);
 
  private:
@@ -69,7 +69,7 @@ class TouchFinder {
     double penetration = 0, offset = 0, share = 1;
   };
 
-  bool look(const TouchFrame& frame, const Vec3& x, double half_thickness, Index segment, double& wake, std::span<const Touch> memory,
+  bool look(const TouchFrame& frame, const Vec3& x, double half_thickness, Index segment, float& wake, std::span<const Touch> memory,
             Place& place) const;
   bool came_through(const Vec3& u, const Segment& segment, std::span<const Touch> memory) const;
   bool averted(const TouchFrame& frame, Index node, const Place& place);

@@ -1,6 +1,7 @@
 #include "kardan/solver/node_mover.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +15,10 @@ namespace kardan {
 
 namespace {
 
-constexpr std::size_t chunk_nodes = 1024;  ///< forces, velocities and slots of a chunk: some 200 kB
+constexpr std::size_t chunk_nodes = 256;   ///< forces, velocities and slots of a chunk: some 50 kB, and work for 2 us
 constexpr std::size_t nodes_ahead = 48;    ///< whose vectors are asked for before their turn
 /// Fewer chunks than this are moved by one thread: waking the others costs more than it saves.
-constexpr std::size_t parallel_threshold = 8;
+constexpr std::size_t parallel_threshold = 32;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -69,13 +70,14 @@ class PartsOfNodes {
 /// f(chunk) for all chunks, independent of one another. Small models never enter a parallel region: that alone takes longer
 /// than the step of a small mechanism.
 template <class F>
-void NodeMover::for_each_chunk(F&& f) const {
+void NodeMover::for_each_chunk(F&& f) {
   if (chunks_.size() <= parallel_threshold) {
     for (const Chunk& chunk : chunks_) f(chunk);
     return;
   }
-#pragma omp parallel for schedule(static)
-  for (std::size_t c = 0; c < chunks_.size(); ++c) f(chunks_[c]);
+  thread_shares_.start(chunks_.size(), static_cast<std::size_t>(omp_get_max_threads()));
+#pragma omp parallel
+  thread_shares_.run(static_cast<std::size_t>(omp_get_thread_num()), [&](std::size_t c) { f(chunks_[c]); });
 }
 
 NodeMover::NodeMover(const Model& model, State& state) {
@@ -203,7 +205,7 @@ void NodeMover::take_masses(const State& state, const std::vector<NodeIndex>& no
   }
 }
 
-void NodeMover::settle(State& state) const {
+void NodeMover::settle(State& state) {
   NodeState& nodes = state.nodes;
   const double kick = state.clock.kick(), share = state.clock.share_before();
   for_each_chunk([&](const Chunk& chunk) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kardan/model/model.hpp"
+#include "kardan/parallel/shares.hpp"
 #include "kardan/state/state.hpp"
 
 namespace kardan {
@@ -30,7 +31,7 @@ class NodeMover {
   /// Takes over masses and rotary inertias of nodes that have changed.
   void take_masses(const State& state, const std::vector<NodeIndex>& nodes);
   /// In a cycle that is looked at, after the velocities were constrained: v_now, a, omega_now and alpha at t_n.
-  void settle(State& state) const;
+  void settle(State& state);
   /// After a cycle that broke: v_now and omega_now are the last velocities known, a and alpha zero.
   void settle_broken(State& state) const;
   /// Positions to t_{n+1}.
@@ -57,7 +58,7 @@ class NodeMover {
   };
 
   template <class F>
-  void for_each_chunk(F&& f) const;
+  void for_each_chunk(F&& f);
   template <class F>
   void find_fastest(F&& f);
   void find_parts(const Model& model, const State& state);
@@ -67,6 +68,7 @@ class NodeMover {
   std::vector<NodeIndex> free_, unattached_;                // ascending
   std::vector<double> inverse_mass_, inverse_inertia_;      // by position in free_; 0 where there is no inertia
   std::vector<Chunk> chunks_;
+  Shares thread_shares_;                                    // of chunks_
   std::vector<double> chunk_fastest_;                       // squares of speeds
   double fastest_ = 0;
   std::vector<PartIndex> part_;                             // by position in free_; none: no part, or several
