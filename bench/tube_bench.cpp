@@ -57,8 +57,9 @@ void time_copies(const bench::Options& options, const Model& tube, const std::ve
   Diagnostics diagnostics;
   Solver solver(model, {}, diagnostics);
   for (int i = 0; i < 5; ++i) solver.step();
-  const Figures f = time_cycles(solver, model.shells.size(), 1, 3, count > 10 ? 20 : 60);
-  print(options, "folded copies", 1, model.shells.size(), f, (bench::memory().now - before) / static_cast<double>(model.shells.size()));
+  const double bytes = (bench::memory().now - before) / static_cast<double>(model.shells.size());
+  for (int threads = 1; threads <= std::min(options.threads, omp_get_num_procs()); ++threads)
+    print(options, "folded copies", threads, model.shells.size(), time_cycles(solver, model.shells.size(), threads, 3, count > 10 ? 20 : 60), bytes);
 }
 
 }  // namespace

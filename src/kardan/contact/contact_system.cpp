@@ -125,13 +125,7 @@ void ContactSystem::add_forces(State& state) const {
       if (n >= begin && n < end) force[n] += f;
     };
     for (const auto& contact : penalties_)
-      for (const auto& d : contact->directions())
-        d->pass.for_each([&](const Touch& t) {
-          to(d->pass.nodes().nodes()[t.place].node, t.force);
-          const Segment& s = d->pass.segments().segments()[t.segment];
-          for (std::size_t k = 0; k < 4; ++k)
-            if (t.weights[k] != 0) to(s.nodes[k], t.force * -t.weights[k]);
-        });
+      for (const auto& d : contact->directions()) d->pass.add_forces(force, begin, end);
     for (const auto& contact : penalties_) {
       if (!contact->edges()) continue;
       contact->edges()->for_each([&](const auto& a, const auto& wa, const auto& b, const auto& wb, const Vec3& f) {

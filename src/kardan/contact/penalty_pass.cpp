@@ -12,6 +12,14 @@ namespace {
 
 constexpr Index chunk_nodes = 256;
 
+/// Asks for the cache lines at both ends of a thing.
+template <class T>
+void ask(const T& thing) {
+  const char* bytes = reinterpret_cast<const char*>(&thing);
+  __builtin_prefetch(bytes);
+  if (sizeof(T) > 16) __builtin_prefetch(bytes + sizeof(T) - 1);
+}
+
 /// Touches with segments that would be lost from the list because the node is deeper in them than the list reaches.
 std::vector<std::pair<Index, Index>> deep_pairs(const std::vector<Touch>& touches, const Surface& nodes, const Surface& segments,
                                                 double margin) {
@@ -194,6 +202,33 @@ void PenaltyPass::push_all(const State& state, const TouchFrame& frame, const Pe
   }
   for (const Touch& t : chunk.touches)
     if (t.share > 0) add_work(state, t, chunk.energy);
+}
+
+/// Segments of the next chunk but one are asked for, and forces of the nodes of the next: in large models they lie in memory, here and there.
+void PenaltyPass::add_forces(std::vector<Vec3>& force, NodeIndex begin, NodeIndex end) const {
+  const std::vector<Segment>& segments = segments_->segments();
+  const auto to = [&](NodeIndex n, const Vec3& f) {
+    if (n >= begin && n < end) force[n] += f;
+  };
+  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+    if (c + 2 < chunks_.size())
+      for (const Touch& t : chunks_[c + 2].touches) {
+        ask(segments[t.segment].nodes);
+        ask(nodes_->nodes()[t.place].node);
+      }
+    if (c + 1 < chunks_.size())
+      for (const Touch& t : chunks_[c + 1].touches) {
+        ask(force[nodes_->nodes()[t.place].node]);
+        for (const NodeIndex n : segments[t.segment].nodes)
+          if (n >= begin && n < end) ask(force[n]);
+      }
+    for (const Touch& t : chunks_[c].touches) {
+      if (!(t.share > 0)) continue;
+      to(nodes_->nodes()[t.place].node, t.force);
+      for (std::size_t k = 0; k < 4; ++k)
+        if (t.weights[k] != 0) to(segments[t.segment].nodes[k], t.force * -t.weights[k]);
+    }
+  }
 }
 
 double PenaltyPass::force_of_penetration(const PenaltyLaw& law) const {

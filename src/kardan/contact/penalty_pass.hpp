@@ -44,6 +44,8 @@ class PenaltyPass {
   /// Energies of the step with the forces of its begin only; then no touches are left.
   PassEnergy end(const State& state);
 
+  /// Adds the touches' forces to those of the nodes begin <= n < end of the model, in the order of the touches.
+  void add_forces(std::vector<Vec3>& force, NodeIndex begin, NodeIndex end) const;
   /// f(const Touch&) for all touches with a share of force, in order.
   template <class F>
   void for_each(F&& f) const {

@@ -11,7 +11,6 @@ namespace {
 
 /// What a bound in single precision is made smaller by, so that it stays one.
 constexpr double rounded_down = 1 - 1e-6;
-constexpr double cells_of_size = 1;  ///< cells in sizes of segments, margin included
 
 struct SegmentShape {
   std::array<Vec3, 4> x;
@@ -69,7 +68,7 @@ void CandidateSearch::make_grid(const SearchInput& in) {
       all.high[a] = std::max(all.high[a], box.high[a]);
     }
   const double longest = std::max({all.high.x - all.low.x, all.high.y - all.low.y, all.high.z - all.low.z});
-  cell_ = std::max(cells_of_size * (size_ + in.margin), longest * 1e-6);  // cell numbers of an axis fit well into an Index
+  cell_ = std::max(size_ + in.margin, longest * 1e-6);  // cell numbers of an axis fit well into an Index
   inverse_cell_ = 1 / cell_;
   for (std::size_t a = 0; a < 3; ++a) {
     origin_[a] = all.low[a];
