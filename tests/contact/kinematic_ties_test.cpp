@@ -98,6 +98,34 @@ TEST(KinematicTies, LetWavesThrough) {
   EXPECT_NEAR(tied, far_end(false), 0.01 * exact);
 }
 
+/// What SPR and MPR ask for: forces of single nodes, whose sums are the contact's, without and with springs.
+TEST(KinematicTies, ReportForcesOfNodes) {
+  for (const Holding holding : {Holding::constrained_offset, Holding::offset}) {
+    TwoBlocks b(test::steel, 2, 3, 0.01, holding);
+    b.model.contacts[0].tracked.report_nodes = b.model.contacts[0].reference.report_nodes = true;
+    b.spin({0.3, 0.2, 0}, {300, -200, 400}, {50, 20, -10});
+    b.model.control.termination.end_time = 5e-4;
+    Diagnostics diagnostics;
+    Solver solver(b.model, {}, diagnostics);
+    ASSERT_EQ(solver.run(), StopReason::end_time);
+    const ContactReport& report = solver.state().contacts[0];
+    ASSERT_GT(norm(report.force), 0);
+    Vec3 tracked, reference, moment;
+    std::size_t loaded = 0;
+    for (std::size_t i = 0; i < report.nodes[0].size(); ++i) {
+      tracked += report.nodal_force[0][i];
+      moment += cross(solver.state().nodes.x[static_cast<std::size_t>(report.nodes[0][i])], report.nodal_force[0][i]);
+      loaded += report.nodal_force[0][i] != Vec3{};
+    }
+    for (const Vec3& f : report.nodal_force[1]) reference += f;
+    EXPECT_EQ(loaded, 16u);
+    EXPECT_LT(norm(tracked - report.force), 1e-12 * norm(report.force));
+    EXPECT_LT(norm(reference + report.force), 1e-11 * norm(report.force));
+    EXPECT_LT(norm(moment - report.moment), 1e-11 * norm(report.moment));
+    EXPECT_EQ(report.segments[0].size(), 2 * 9 + 4 * 12u);
+  }
+}
+
 /// Unmatched blocks that fly, turn and swing, with and without a gap; plates tied with their rotations.
 TEST(KinematicTies, KeepMomentaAndEnergy) {
   for (const double gap : {0.0, 0.01}) {

@@ -288,11 +288,13 @@ void KinematicTies::account(State& state) const {
 }
 
 void KinematicTies::report(State& state) const {
-  for (const Tie& t : ties_) {
+  for (std::size_t i = 0; i < ties_.size(); ++i) {
+    const Tie& t = ties_[i];
     ContactReport& contact = state.contacts[t.point.contact];
     const Vec3& f = state.nodes.force[at(t.point.node)];
     contact.force -= f;
     contact.moment -= cross(state.nodes.x[at(t.point.node)], f);
+    add_nodal_forces(t.point, state.nodes, -f, -cross(arms_[i], f) - (t.rotations ? state.nodes.moment[at(t.point.node)] : Vec3{}), contact);
     ++contact.touching;
   }
 }

@@ -130,16 +130,8 @@ void PenaltyContact::evaluate(State& state, const std::vector<double>& inverse_m
 
 void PenaltyContact::size_report(State& state) const {
   ContactReport& report = state.contacts[contact_];
-  const std::array<bool, 2> wanted{contact().tracked.report_nodes, contact().reference.report_nodes};
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (!wanted[side]) continue;
-    for (const SurfaceNode& n : surfaces_[side].nodes()) {
-      report.nodes[side].push_back(n.node);
-      report.nodal_area[side].push_back(n.area);
-    }
-    for (const Segment& s : surfaces_[side].segments()) report.segments[side].push_back(s.nodes);
-    report.nodal_force[side].assign(report.nodes[side].size(), Vec3{});
-  }
+  if (contact().tracked.report_nodes) size_nodal_report(surfaces_[0], 0, report);
+  if (contact().reference.report_nodes) size_nodal_report(surfaces_[1], 1, report);
 }
 
 /// Shares of one touch in the forces of single nodes.

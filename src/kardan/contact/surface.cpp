@@ -429,4 +429,13 @@ Index Surface::place_of(NodeIndex node) const {
   return found != nodes_.end() && found->node == node ? static_cast<Index>(found - nodes_.begin()) : none;
 }
 
+void size_nodal_report(const Surface& surface, std::size_t side, ContactReport& report) {
+  for (const SurfaceNode& n : surface.nodes()) {
+    report.nodes[side].push_back(n.node);
+    report.nodal_area[side].push_back(n.area);
+  }
+  for (const Segment& s : surface.segments()) report.segments[side].push_back(s.nodes);
+  report.nodal_force[side].assign(report.nodes[side].size(), Vec3{});
+}
+
 }  // namespace kardan

@@ -89,6 +89,9 @@ class Surface {
   std::vector<Index> first_at_, segment_at_, beams_;
 };
 
+/// Makes room for forces of single nodes of a side, as SPR and MPR ask for.
+void size_nodal_report(const Surface& surface, std::size_t side, ContactReport& report);
+
 /// Distinct nodes of a segment: 3 or 4.
 inline std::size_t corners(const Segment& s) { return s.nodes[2] == s.nodes[3] ? 3 : 4; }
 /// The two segments share a node.

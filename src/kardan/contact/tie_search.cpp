@@ -224,6 +224,24 @@ std::vector<TiedPoint> find_tied_points(const Model& model, const State& state, 
   return TieFinder(model, state, contact, diagnostics).find(diagnostics);
 }
 
+void size_tie_report(const Model& model, const State& state, std::size_t contact, ContactReport& report) {
+  const Contact& c = model.contacts[contact];
+  Diagnostics said_already;
+  if (c.tracked.report_nodes) size_nodal_report(Surface(model, state, c, c.tracked, {.automatic = true}, said_already), 0, report);
+  if (c.reference.report_nodes) size_nodal_report(Surface(model, state, c, c.reference, {.automatic = true}, said_already), 1, report);
+}
+
+void add_nodal_forces(const TiedPoint& point, const NodeState& nodes, const Vec3& force, const Vec3& at_foot, ContactReport& report) {
+  const auto add = [&](std::size_t side, NodeIndex node, const Vec3& f) {
+    const std::vector<NodeIndex>& of_side = report.nodes[side];
+    if (of_side.empty()) return;
+    report.nodal_force[side][static_cast<std::size_t>(std::lower_bound(of_side.begin(), of_side.end(), node) - of_side.begin())] += f;
+  };
+  add(0, point.node, force);
+  if (report.nodes[1].empty()) return;
+  SegmentFrame(point.foot, nodes, 0).share(-force, -at_foot, [&](std::size_t n, const Vec3& f, const Vec3&) { add(1, static_cast<NodeIndex>(n), f); });
+}
+
 void move_tied_nodes(Model& model, Diagnostics& diagnostics) {
   std::vector<TiedPoint> points;
   State state;

@@ -29,6 +29,11 @@ struct TiedPoint {
 /// which nodes of a set are not and how far they are from the surface.
 std::vector<TiedPoint> find_tied_points(const Model& model, const State& state, std::size_t contact, Diagnostics& diagnostics);
 
+/// Makes room for forces of single nodes of a tied contact, where SPR and MPR ask for them.
+void size_tie_report(const Model& model, const State& state, std::size_t contact, ContactReport& report);
+/// Adds a force on a tied node and its opposite, with the moment -at_foot, on its segment to the forces of single nodes.
+void add_nodal_forces(const TiedPoint& point, const NodeState& nodes, const Vec3& force, const Vec3& at_foot, ContactReport& report);
+
 /// Before the solver sees the model: ties without offset (no suffix) move their nodes onto the segments, as LS-DYNA does; a notice says
 /// how far. Nodes of segments that are tied themselves are moved first.
 void move_tied_nodes(Model& model, Diagnostics& diagnostics);

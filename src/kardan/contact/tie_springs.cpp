@@ -250,6 +250,7 @@ void TieSprings::report(State& state) const {
     ContactReport& report = state.contacts[springs_[i].point.contact];
     report.force += a.force;
     report.moment += cross(state.nodes.x[at(springs_[i].point.node)], a.force) + a.moment;
+    add_nodal_forces(springs_[i].point, state.nodes, a.force, a.at_foot, report);
     ++report.touching;
   }
 }

@@ -78,6 +78,10 @@ TiedContacts::TiedContacts(const Model& model, State& state, Diagnostics& diagno
   }
 }
 
+void TiedContacts::size_reports(const Model& model, State& state) const {
+  for (const std::size_t c : for_good_) size_tie_report(model, state, c, state.contacts[c]);
+}
+
 bool TiedContacts::drop_deleted(const Model& model, State& state, const Alive& alive) {
   if (empty()) return false;
   const std::vector<std::uint8_t> bare = bare_nodes(model, alive);
@@ -98,6 +102,7 @@ void TiedContacts::report(State& state) const {
     ContactReport& contact = state.contacts[c];
     contact.force = contact.moment = {};
     contact.touching = 0;
+    for (auto& forces : contact.nodal_force) std::fill(forces.begin(), forces.end(), Vec3{});
     state.energy.sliding += contact.tracked_energy + contact.reference_energy;
   }
   kinematic_.account(state);

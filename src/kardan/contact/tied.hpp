@@ -20,6 +20,8 @@ class TiedContacts {
   /// Finds the tied nodes; marks nodes of bodies as needed. Bodies and lumped masses must stand in the state.
   TiedContacts(const Model& model, State& state, Diagnostics& diagnostics);
 
+  /// Room for the forces of single nodes in state.contacts, which must stand.
+  void size_reports(const Model& model, State& state) const;
   /// After the initial velocities: masses and momenta of nodes without springs go to their segments.
   void take_masses(State& state) { kinematic_.take_masses(state); }
   /// After mass scaling, likewise. @return nodes whose mass has changed

@@ -82,6 +82,7 @@ void Solver::set_up(const SolverOptions& options, Diagnostics& diagnostics) {
   loads_ = std::make_unique<LoadSystem>(model_, state_, diagnostics);  // takes out velocities against supports
   contacts_ = std::make_unique<ContactSystem>(model_, state_, *ties_, diagnostics);
   if (!diagnostics.ok()) return;
+  ties_->size_reports(model_, state_);
   ties_->take_masses(state_);
   rigid_->set_initial_velocities(model_, state_, diagnostics);
   walls_ = std::make_unique<RigidWalls>(model_, state_, diagnostics);
