@@ -81,6 +81,60 @@ TEST(RigidWall, ElasticBarRebounds) {
   EXPECT_NEAR(solver.state().energy.stonewall, initial / 40, 0.3 * initial / 40);
 }
 
+/// Impulse and peak of the wall's force, as it acts and as the files show it.
+struct WallHistory : Observer {
+  bool due(const State&, const StepView&) override { return true; }
+  void at(const Model&, const State& state, const StepView&) override {
+    const WallReport& wall = state.walls[0];
+    impulse += wall.force * state.clock.kick();
+    eased_impulse += wall.eased_force * state.clock.kick();
+    eased_normal_impulse += wall.eased_normal_force * state.clock.kick();
+    peak = std::max(peak, wall.normal_force);
+    eased_peak = std::max(eased_peak, wall.eased_normal_force);
+  }
+  Vec3 impulse, eased_impulse;
+  double eased_normal_impulse = 0, peak = 0, eased_peak = 0;
+};
+
+/// A cube so soft that its weight is all that the wall feels stops at once: a peak of m v/dt, which files show as a tenth of it and its decay, with
+/// the same impulse, friction included. With SOFT the length of the impact is the user's, and is shown as it is.
+TEST(RigidWall, FilesShowTheImpulsesOfArrivalsHandedOut) {
+  for (const int soft_cycles : {0, 5}) {
+    Bricks b;
+    const PartIndex p = b.part(ElasticMaterial{density, 1e5, 0, 0, 0});
+    b.column(p, 1, 0.1, {0, 0, 1e-4});
+    RigidWall wall;
+    wall.normal = {0, 0, 1};
+    wall.friction = 0.25;
+    wall.soft_cycles = soft_cycles;
+    InitialVelocity initial;
+    initial.velocity = {3, 0, -2};
+    for (NodeIndex n = 0; n < 8; ++n) {
+      wall.nodes.push_back(n);
+      initial.nodes.push_back(n);
+    }
+    b.model.rigid_walls.push_back(wall);
+    b.model.initial_velocities.push_back(initial);
+    b.model.control.termination.end_time = 2e-6 * 400;
+    Diagnostics diagnostics;
+    Solver solver(b.model, {.dt = 2e-6}, diagnostics);
+    WallHistory history;
+    solver.attach(history);
+    ASSERT_EQ(solver.run(), StopReason::end_time);
+    const double arrival = 0.5 * density * 1e-3 * 2;  // the lower nodes'
+    EXPECT_NEAR(history.impulse.z, -arrival, 0.06 * arrival);  // and what its little stiffness adds
+    EXPECT_NEAR(history.impulse.x, 0.25 * arrival, 0.06 * arrival);
+    EXPECT_LT(norm(history.eased_impulse - history.impulse), 1e-12 * arrival);
+    EXPECT_NEAR(history.eased_normal_impulse, -history.impulse.z, 1e-12 * arrival);
+    if (soft_cycles == 0) {
+      EXPECT_GT(history.peak, 0.5 * arrival / 2e-6);
+      EXPECT_LT(history.eased_peak, 0.11 * arrival / 2e-6);
+    } else {
+      EXPECT_EQ(history.eased_peak, history.peak);
+    }
+  }
+}
+
 /// A cube slides on the wall under gravity: it stops after v^2/(2 mu g), goes on without friction, and does not move with FRIC = 1.
 TEST(RigidWall, FrictionIsCoulombs) {
   const double speed = 1, gravity = 500;

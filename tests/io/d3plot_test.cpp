@@ -145,7 +145,7 @@ void add_walls(Model& m, State& s) {
   wall.point = {1, 2, 3};
   m.rigid_walls.assign(2, wall);
   s.walls.resize(2);
-  s.walls[0].normal_force = 7;
+  s.walls[0].eased_normal_force = 7;
   s.walls[1].displacement = {0, 0, 0.5};
 }
 

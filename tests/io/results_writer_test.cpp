@@ -66,8 +66,8 @@ TEST(ResultsWriter, ForcesOnWallsAndTheirSegments) {
   s.walls.resize(2);
   s.walls[0].id = 4;
   s.walls[1].id = 9;
-  s.walls[1].force = {1, 2, -30};
-  s.walls[1].normal_force = 30;
+  s.walls[1].eased_force = {1, 2, -30};
+  s.walls[1].eased_normal_force = 30;
   s.walls[1].segment_force = {{0, 0, -20}, {1, 0, -5}};
   ask(m, {OutputFile::rwforc}, 0.1, 3);
   const auto directory = output_directory();

@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* keyword = "*RIGIDWALL";
 constexpr std::size_t chunk_nodes = 1024;
+constexpr double arrival_cycles = 10;  ///< of the impulses of arriving nodes 1 in so many is handed out a cycle
 /// Fewer chunks than this are done by one thread: waking the others costs more than it saves.
 constexpr std::ptrdiff_t parallel_threshold = 8;
 /// A list of near nodes is made to last for so many steps, and made anew when less than the smaller number may be left: what can happen
@@ -100,6 +101,8 @@ RigidWalls::RigidWalls(const Model& model, State& state, Diagnostics& diagnostic
     registry.add_value({"walls.velocity", "length/time", "contact.hold"}, own.velocity);
     registry.add_value({"walls.loss", "energy", "contact.close_kick"}, own.loss);
     registry.add_value({"walls.drive", "energy", "contact.close_kick"}, own.drive);
+    registry.add_value({"walls.arrived", "force*time", "contact.hold"}, own.arrived);
+    registry.add_value({"walls.arrived_normal", "force*time", "contact.hold"}, own.arrived_normal);
     registry.add({"walls.marks", "1", "contact.hold"}, own.marks);
     registry.add({"walls.braked", "1", "contact.hold"}, own.braked);
     own.penalty.register_state(registry);
@@ -277,6 +280,12 @@ Vec3 RigidWalls::rub(const Wall& wall, const Vec3& u, const Vec3& normal, double
   return along + tangential;
 }
 
+/// The share of a pressing force that stops an approach, which alone would take the force `stopping`. With SOFT the impact has its length already.
+double RigidWalls::arriving_share(const Wall& wall, double stopping, double pressing) {
+  if (!wall.braked.empty() || !(stopping > 0) || !(pressing > 0)) return 0;
+  return std::min(stopping / pressing, 1.0);
+}
+
 void RigidWalls::hold_chunk(Wall& wall, std::size_t begin, std::size_t end, State& state, std::vector<Held>& held) const {
   const RigidWall& w = wall.description;
   const double dt = state.clock.dt, kick = state.clock.kick();
@@ -306,7 +315,9 @@ void RigidWalls::hold_chunk(Wall& wall, std::size_t begin, std::size_t end, Stat
     }
     const Vec3 force = (after - u) * (state.nodes.mass[n] / kick);
     state.nodes.v[n] = after + wall.velocity;
-    held.push_back({n, force, dot(force, resistance.normal), dot(force, wall.v_before[i] - wall.velocity_before)});
+    const double pressing = dot(force, resistance.normal);
+    const Vec3 u_before = wall.v_before[i] - wall.velocity_before;
+    held.push_back({n, force, pressing, arriving_share(wall, state.nodes.mass[n] / kick * -dot(u_before, resistance.normal), pressing), dot(force, u_before)});
   }
 }
 
@@ -317,7 +328,7 @@ void RigidWalls::hold(const Model& model, State& state, double fastest) {
     const RigidWall& w = wall.description;
     WallReport& report = state.walls[i];
     if (!wall.alive) {
-      sum_forces(wall, report);
+      sum_forces(wall, clock.kick(), report);
       continue;
     }
     if (w.motion != none) wall.velocity = driven_velocity(model, state, wall);
@@ -341,23 +352,36 @@ void RigidWalls::hold(const Model& model, State& state, double fastest) {
       hold_chunk(wall, begin, end, state, chunk_held_[c]);
     });
     gather(chunk_held_, chunks, wall.held);
-    sum_forces(wall, report);
+    sum_forces(wall, clock.kick(), report);
     report.displacement = wall.displacement;
     report.velocity = wall.velocity_before + (wall.velocity - wall.velocity_before) * clock.share_before();
   }
 }
 
-void RigidWalls::sum_forces(Wall& wall, WallReport& report) const {
+void RigidWalls::sum_forces(Wall& wall, double kick, WallReport& report) {
   wall.force = wall.penalty.force();
   report.normal_force = 0;
+  Vec3 arriving;
+  double arriving_normal = 0;
   double power = wall.penalty.pushes().empty() ? 0.0 : wall.penalty_power;
   for (const WallPenalty::Push& p : wall.penalty.pushes()) report.normal_force += p.pressing;
   for (const Held& h : wall.held) {
     wall.force += h.force;
     report.normal_force += h.pressing;
+    arriving += h.force * h.arriving;
+    arriving_normal += h.pressing * h.arriving;
     power += h.power_before;
   }
   report.force = -wall.force;
+  wall.arrived += arriving * kick;
+  wall.arrived_normal += arriving_normal * kick;
+  const Vec3 handed_out = wall.arrived * (1 / arrival_cycles);
+  const double handed_out_normal = wall.arrived_normal * (1 / arrival_cycles);
+  wall.arrived -= handed_out;
+  wall.arrived_normal -= handed_out_normal;
+  const double rate = kick > 0 ? 1 / kick : 0.0;
+  report.eased_force = arriving - wall.force - handed_out * rate;
+  report.eased_normal_force = report.normal_force - arriving_normal + handed_out_normal * rate;
   wall.loss.before(-power);
   wall.drive.before(dot(wall.force, wall.velocity_before));
 }
@@ -394,7 +418,8 @@ void RigidWalls::account(State& state) const {
 void RigidWalls::restart() {
   for (Wall& wall : walls_) {
     wall.loss = wall.drive = {};
-    wall.loss_now = wall.drive_counted = 0;
+    wall.loss_now = wall.drive_counted = wall.arrived_normal = 0;
+    wall.arrived = {};
     wall.travelled = std::numeric_limits<double>::max();  // a new list
     wall.velocity = wall.description.normal * wall.description.velocity;
   }

@@ -11,6 +11,10 @@
 //   M (w' - w) + sum m_i phi_i max(0, w' - b_i) = 0,   b_i = v_i.n + max(g_i, 0)/dt  the slowest wall that the node i stays ahead of,
 // which is increasing and piecewise linear in w', so that Newton's method ends at the root after a few steps.
 //
+// RWFORC: the impulse that stops a node of mass m arriving at the speed v is the lumped mass's, and m v/dt, a peak of one cycle, says more
+// about mesh and step than about the crash. What files show is the force without these arrivals, and their impulses handed out by a tenth of
+// what is left each cycle: the integral over time remains the momentum that the wall took.
+//
 // Work: of the force F on a node, F.w goes to what drives the wall (external work; of a free wall its kinetic energy), the rest,
 // -F.u, is what impact and friction take: stonewall energy.
 #pragma once
@@ -58,6 +62,7 @@ class RigidWalls {
     NodeIndex node;
     Vec3 force;           ///< on it
     double pressing;      ///< the part along the normal
+    double arriving;      ///< the share of the force that stops the node's approach of before the kick
     double power_before;  ///< against the wall, with the velocities of before the kick
   };
   struct Wall {
@@ -83,6 +88,8 @@ class RigidWalls {
     WallPenalty penalty;
     double penalty_power = 0;         ///< with the velocities before the kick
     Vec3 force;                       ///< on all nodes
+    Vec3 arrived;                     ///< impulse on arriving nodes that has not been handed out
+    double arrived_normal = 0;        ///< the same along their normals
     WorkMeter loss, drive;
     double loss_now = 0, drive_counted = 0;
   };
@@ -99,8 +106,9 @@ class RigidWalls {
   Vec3 driven_velocity(const Model& model, const State& state, const Wall& wall) const;
   Vec3 free_velocity(const State& state, const Wall& wall);
   void hold_chunk(Wall& wall, std::size_t begin, std::size_t end, State& state, std::vector<Held>& held) const;
+  static double arriving_share(const Wall& wall, double stopping, double pressing);
   static double braking_share(const Wall& wall, std::size_t k);
-  void sum_forces(Wall& wall, WallReport& report) const;
+  static void sum_forces(Wall& wall, double kick, WallReport& report);
   static Vec3 rub(const Wall& wall, const Vec3& u, const Vec3& normal, double change);
 
   std::vector<Wall> walls_;

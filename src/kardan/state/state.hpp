@@ -154,6 +154,8 @@ struct WallReport {
   UserId id = 0;
   Vec3 force;                       ///< of the nodes on the wall
   double normal_force = 0;          ///< sum of the pressing forces on the nodes, each along its normal
+  Vec3 eased_force;                 ///< like `force`, the impulses of arriving nodes handed out over some cycles: what RWFORC shows
+  double eased_normal_force = 0;    ///< like `normal_force`, likewise
   double energy = 0;                ///< taken from the nodes so far: impact, friction and what penalty springs hold
   Vec3 displacement, velocity;      ///< of the wall
   std::vector<Vec3> segment_force;  ///< by segment of a wall that has some, like `force`; valid where somebody looks

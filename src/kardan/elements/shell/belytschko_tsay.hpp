@@ -21,6 +21,7 @@
 //
 // Hourglass: h = [1, -1, 1, -1], g = h - (h.x) b1 - (h.y) b2, rates q = g.v, B = sum(b1^2 + b2^2), forces g Q with
 //   membrane  Q' = r E h A B/8 q,   bending  Q' = r E h^3 A B/192 q,   warping  Q' = r k G h^3 B/12 q           (IHQ 4, 5)
+//     with r = QM/64, QB/64, QW/64 (docs/theory/hourglass.md)
 //   membrane  Q = QM rho c h sqrt(A)/4 q; bending and warping in the same proportion to it as above, B A = 2    (IHQ 1, 2, 3)
 // The viscous constants are Kardan's reading: Flanagan and Belytschko 1981, QM rho V^(2/3) c/4, with h sqrt(A) for V^(2/3).
 // On a warped element g.z = 4 z0 does not vanish, and a rigid rotation would feed the in-plane rates. The element's own spin

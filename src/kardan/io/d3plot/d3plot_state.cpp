@@ -68,7 +68,7 @@ void D3plotWriter::global_words(const Model& model, const State& state, WordBuff
   for (const Index p : layout_.parts) out.vector(of(p).velocity);
   for (const Index p : layout_.parts) out.real(of(p).mass);
   for (const Index p : layout_.parts) out.real(of(p).hourglass);
-  for (const WallReport& wall : state.walls) out.real(wall.normal_force);
+  for (const WallReport& wall : state.walls) out.real(wall.eased_normal_force);
   for (std::size_t i = 0; i < state.walls.size(); ++i) out.vector(model.rigid_walls[i].point + state.walls[i].displacement);
 }
 

@@ -209,8 +209,8 @@ std::vector<Folder> rwforc_folders(const Model& model, const State& state) {
     f.legend.push_back(model.rigid_walls[i].title);
   }
   f.metadata = {std::move(ids), std::move(walls)};
-  f.add_vectors("x_force", "y_force", "z_force", n, [&](std::size_t i) { return state.walls[i].force; });
-  f.add_scalars("normal_force", n, [&](std::size_t i) { return state.walls[i].normal_force; });
+  f.add_vectors("x_force", "y_force", "z_force", n, [&](std::size_t i) { return state.walls[i].eased_force; });
+  f.add_scalars("normal_force", n, [&](std::size_t i) { return state.walls[i].eased_normal_force; });
   f.add_scalars("energy", n, [&](std::size_t i) { return state.walls[i].energy; });
   std::vector<Folder> folders{std::move(f)};
   for (std::size_t i = 0; i < n; ++i)
