@@ -113,6 +113,7 @@ class Simulation {
     kick();
     kicked_ = true;
     state.energy.begin(model.parts.size());
+    system->account_work(state);
     system->account(model, state);
     system->update_reports(model, state);
   }

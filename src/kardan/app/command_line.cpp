@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <map>
 #include <ostream>
 
@@ -47,7 +48,6 @@ std::vector<std::string> translate_ls_dyna(const std::vector<std::string>& words
 const std::map<std::string, JointHolding> holdings{{"exact", JointHolding::exact}, {"penalty", JointHolding::penalty}};
 
 void add_model_options(CLI::App& command, RunRequest& run, std::string& isa) {
-  command.add_option("deck", run.deck, "LS-DYNA keyword deck")->required();
   command.add_option("-j,--threads", run.threads, "threads; the result is the same to the last bit for any number")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -69,6 +69,23 @@ void settle_isa(RunRequest& run, const std::string& name) {
     throw CLI::ValidationError("--isa", fmt::format("this processor has {}, not {}", to_string(native_isa()), name));
 }
 
+void settle_checkpoint(RunRequest& run, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    const auto number = [&](std::size_t from) {
+      double value = 0;
+      const char* const end = word.data() + word.size();
+      const auto [stop, error] = std::from_chars(word.data() + from, end, value);
+      if (error != std::errc{} || stop != end || !(value > 0))
+        throw CLI::ValidationError("--checkpoint", word + " needs a positive number");
+      return value;
+    };
+    if (!run.checkpoint) run.checkpoint.emplace();
+    if (word.starts_with("every=")) run.checkpoint->seconds = number(6);
+    else if (word.starts_with("cycles=")) run.checkpoint->cycles = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(number(7), 1e15)));
+    else throw CLI::ValidationError("--checkpoint", word + " is neither every=SECONDS nor cycles=N");
+  }
+}
+
 }  // namespace
 
 Command parse_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err) {
@@ -80,12 +97,18 @@ Command parse_command_line(std::vector<std::string> arguments, std::ostream& out
   program.require_subcommand(0, 1);
   bool version = false, markdown = false;
   std::string isa;
+  std::vector<std::string> checkpoint;
   program.add_flag("--version", version, "version, commit, compiler, instruction set, MPI");
 
   CLI::App* run = program.add_subcommand("run", "run a deck");
+  run->add_option("deck", command.run.deck, "LS-DYNA keyword deck");
   add_model_options(*run, command.run, isa);
   run->add_option("-o,--output", command.run.output, "folder of the results (default results/<deck name>)");
+  run->add_option("--checkpoint", checkpoint, "restart files every so often: every=SECONDS of wall time, or cycles=N")
+      ->allow_extra_args(false);
+  run->add_option("--restart", command.run.restart, "go on with the run whose restart files are in this folder");
   CLI::App* check = program.add_subcommand("check", "read a deck, set the model up and report on it, without running it");
+  check->add_option("deck", command.run.deck, "LS-DYNA keyword deck")->required();
   add_model_options(*check, command.run, isa);
 
   CLI::App* verify = program.add_subcommand("verify", "run verification cases and compare them with their oracles");
@@ -103,6 +126,9 @@ Command parse_command_line(std::vector<std::string> arguments, std::ostream& out
     std::reverse(arguments.begin(), arguments.end());  // the order in which CLI11 takes a vector
     program.parse(arguments);
     settle_isa(command.run, isa);
+    settle_checkpoint(command.run, checkpoint);
+    if (run->parsed() && command.run.deck.empty() && command.run.restart.empty())
+      throw CLI::RequiredError("deck (or --restart DIR)");
   } catch (const CLI::ParseError& error) {
     command.exit_code = program.exit(error, out, err) == 0 ? normal_termination : bad_input;
     return command;

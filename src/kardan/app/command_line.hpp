@@ -1,6 +1,7 @@
 // The command line of the program `kardan`.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
@@ -16,6 +17,12 @@ namespace kardan::app {
 /// Exit codes of the program.
 enum ExitCode : int { normal_termination = 0, error_termination = 1, bad_input = 2 };
 
+/// When restart files are written; 0 = not so.
+struct CheckpointPlan {
+  double seconds = 0;       ///< of wall time between two
+  std::int64_t cycles = 0;  ///< between two
+};
+
 /// What `kardan run` and `kardan check` are told.
 struct RunRequest {
   std::filesystem::path deck;
@@ -25,9 +32,12 @@ struct RunRequest {
   std::optional<JointHolding> joints;
   std::optional<Isa> isa;            ///< absent: the best this machine has
   std::vector<std::string> without;  ///< keyword families left out at the user's wish
+  std::filesystem::path restart;     ///< folder of a run to go on with; empty: a run from t = 0
+  std::optional<CheckpointPlan> checkpoint;  ///< absent: as the deck says
   std::vector<std::string> notes;    ///< on LS-DYNA arguments that mean nothing here
 
   std::filesystem::path results_folder() const {
+    if (output.empty() && !restart.empty()) return restart;
     return output.empty() ? std::filesystem::path("results") / deck.stem() : output;
   }
 };

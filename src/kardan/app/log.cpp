@@ -4,8 +4,8 @@
 
 namespace kardan::app {
 
-void Log::open_file(const std::filesystem::path& path) {
-  file_.open(path);
+void Log::open_file(const std::filesystem::path& path, bool append) {
+  file_.open(path, append ? std::ios::app : std::ios::out);
   if (!file_) throw RunError(fmt::format("cannot write {}", path.string()));
 }
 

@@ -15,8 +15,8 @@ class Log {
   /// @param terminal whether `out` is one: only there a live line is redrawn in place
   Log(std::ostream& out, std::ostream& err, bool terminal) : out_(out), err_(err), terminal_(terminal) {}
 
-  /// From now on everything is also written to `path`. @throws RunError if it cannot be.
-  void open_file(const std::filesystem::path& path);
+  /// From now on everything is also written to `path`, behind what it holds where `append`. @throws RunError if it cannot be.
+  void open_file(const std::filesystem::path& path, bool append = false);
 
   void line(const std::string& text);
   /// Goes to standard error.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace kardan::app {
@@ -43,22 +42,10 @@ std::string deletion_line(const ElementResults& results) {
   return line;
 }
 
-bool Progress::due(const State& state, const StepView&) {
-  const std::int64_t cycle = state.clock.cycle;
-  if (cycle == 0) return true;
-  if (cycle < next_check_) return false;
-  const double now = watch_.seconds();
-  // The clock is read some fifty times an interval, however long a cycle takes.
-  const double since = now - last_seconds_;
-  check_every_ = since > 0 ? std::clamp<std::int64_t>(
-                                 static_cast<std::int64_t>(static_cast<double>(cycle - last_cycle_) * interval() / since / 50),
-                                 1, 100'000)
-                           : 2 * check_every_;
-  next_check_ = cycle + check_every_;
-  return since >= interval();
-}
+bool Progress::due(const State&, const StepView&) { return ticker_.due() || asked_; }
 
 void Progress::at(const Model&, const State& state, const StepView& view) {
+  asked_ = false;
   const double now = watch_.seconds();
   ProgressFigures figures;
   figures.time = state.clock.time;

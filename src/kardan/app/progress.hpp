@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kardan/app/log.hpp"
+#include "kardan/app/ticker.hpp"
 #include "kardan/base/timer.hpp"
 #include "kardan/solver/observer.hpp"
 #include "kardan/state/results.hpp"
@@ -31,20 +32,23 @@ std::string deletion_line(const ElementResults& results);
 /// Says how far the run is, and which elements have been deleted: on a terminal a line redrawn several times a second, elsewhere a line every few seconds.
 class Progress : public Observer {
  public:
-  explicit Progress(Log& log) : log_(log) {}
+  explicit Progress(Log& log) : log_(log), ticker_(log.terminal() ? 0.2 : 5.0) {}
+
+  /// A line at the next cycle, due or not.
+  void ask() { asked_ = true; }
 
   bool due(const State& state, const StepView& view) override;
   bool reads_nodes() const override { return false; }
   void at(const Model& model, const State& state, const StepView& view) override;
 
  private:
-  double interval() const { return log_.terminal() ? 0.2 : 5.0; }
-
   Log& log_;
   Stopwatch watch_;
+  Ticker ticker_;
+  bool asked_ = true;
   double last_seconds_ = 0;
   std::int64_t deleted_ = 0;  ///< elements, when last looked at
-  std::int64_t last_cycle_ = -1, check_every_ = 1, next_check_ = 0;
+  std::int64_t last_cycle_ = -1;
 };
 
 }  // namespace kardan::app

@@ -6,10 +6,11 @@
 #include <memory>
 #include <optional>
 
-#include "kardan/app/interrupt.hpp"
+#include "kardan/app/checkpoints.hpp"
 #include "kardan/app/isa.hpp"
 #include "kardan/app/progress.hpp"
 #include "kardan/app/result_files.hpp"
+#include "kardan/app/run_control.hpp"
 #include "kardan/app/summary.hpp"
 #include "kardan/app/version.hpp"
 #include "kardan/contact/tie_search.hpp"
@@ -27,11 +28,12 @@ SolverOptions solver_options(const RunRequest& request) {
 
 /// The model of the deck. An end time of the command line takes the place of ENDTIM, so that whoever reads the model's
 /// control (writers, solver) sees the one that holds.
-Model load(const RunRequest& request, Diagnostics& diagnostics) {
+/// @param files  gets the files of the deck
+Model load(const RunRequest& request, Diagnostics& diagnostics, std::vector<deck::DeckFile>* files = nullptr) {
   deck::LoadOptions options;
   options.read.without.insert(request.without.begin(), request.without.end());
   options.build.end_time = request.end_time.value_or(0.0);
-  Model model = deck::load_model(request.deck, options, diagnostics);
+  Model model = deck::load_model(request.deck, options, diagnostics, files);
   if (request.end_time) model.control.termination.end_time = *request.end_time;
   if (diagnostics.ok()) move_tied_nodes(model, diagnostics);
   return model;
@@ -68,10 +70,12 @@ void say_results(const std::filesystem::path& folder, Log& log) {
 }
 
 /// The run itself, once the model stands. Returns what broke it, or nothing.
-std::string march(Solver& solver) {
-  const InterruptGuard guard(solver);
+std::string march(Solver& solver, RunControl& control, ResultFiles& results) {
   try {
-    solver.run();
+    do {
+      control.between_cycles();
+    } while (solver.step());
+    results.close();
   } catch (const RunError& error) {
     return error.what();
   }
@@ -91,51 +95,93 @@ void say_end(const Solver& solver, const std::string& failure, double seconds, L
   }
 }
 
-}  // namespace
+/// A run on its way from the command line to the solver.
+struct Run {
+  Stopwatch watch;
+  RunRequest request;
+  Diagnostics diagnostics;
+  std::optional<RestartPoint> from;     ///< what it goes on from
+  std::vector<deck::DeckFile> files;    ///< of the deck
+  double reading_seconds = 0;
+};
 
-int run_deck(const RunRequest& request, Log& log) {
-  const Stopwatch watch;
+void say_program(const RunRequest& request, Log& log) {
   const BuildInfo& build = build_info();
   log.line(fmt::format("kardan {} (commit {}), {} thread{}, kernels for {}", build.version, build.commit, request.threads,
                        request.threads == 1 ? "" : "s", to_string(request.isa.value_or(native_isa()))));
   for (const std::string& note : request.notes) log.line("notice: " + note);
-  if (request.isa) use_isa(*request.isa);
+}
 
-  Diagnostics diagnostics;
-  const Model model = load(request, diagnostics);
-  refuse_unsupported(model, diagnostics);
-  if (!diagnostics.ok()) {
-    refuse(diagnostics, log);
-    return bad_input;
-  }
-  RunRecord record{request, diagnostics, watch.seconds(), 0, {}};
+/// The folder of the results, with what a run that goes on finds there.
+std::filesystem::path prepare_folder(const Run& run) {
+  std::filesystem::path folder = run.request.results_folder();
+  std::filesystem::create_directories(folder);
+  const bool elsewhere = run.from && !std::filesystem::equivalent(folder, run.request.restart);
+  if (!run.from || elsewhere) remove_checkpoints(folder);
+  if (elsewhere) copy_results(run.request.restart, folder, run.from->file.head().at("results"));
+  std::filesystem::remove(folder / "summary.json");  // of an earlier run: a killed one must not seem to have ended well
+  std::filesystem::remove(folder / "d3kil");         // an order to an earlier run
+  return folder;
+}
+
+/// The run from the first step to the last line of the log.
+int run_model(Run& run, Solver& solver, Log& log) {
+  const std::filesystem::path folder = prepare_folder(run);
+  const Model& model = solver.model();
+  log.open_file(folder / "kardan.log", run.from.has_value());
+  log.line(fmt::format("deck: {}", run.request.deck.string()));
+  if (!model.title.empty()) log.line(fmt::format("title: {}", model.title));
+  const Clock& clock = solver.state().clock;
+  if (run.from) log.line(fmt::format("goes on from {} at t = {:g}, cycle {}", run.from->path.string(), clock.time, clock.cycle));
+  ResultFiles results = run.from ? ResultFiles(solver, folder, run.from->file.head().at("results")) : ResultFiles(solver, folder);
+  const CheckpointPlan plan = run.request.checkpoint.value_or(CheckpointPlan{0, model.output.restart_cycles});
+  Checkpoints checkpoints(folder, identity_of(run.request, run.files), plan, run.from ? run.from->number : 0);
+  run.from.reset();
+  note_files(results.writer(), run.diagnostics);
+  log.diagnostics(run.diagnostics);
+  Progress progress(log);
+  solver.attach(results);
+  solver.attach(progress);
+  RunRecord record{run.request, run.diagnostics, run.reading_seconds, 0, {}};
+  RunControl control(solver, results, progress, checkpoints, folder, log);
+  record.failure = march(solver, control, results);
+  record.wall_seconds = run.watch.seconds();
+  say_end(solver, record.failure, record.wall_seconds, log);
+  write_summary(folder / "summary.json", summarize(solver, record));
+  say_results(folder, log);
+  return normal(solver.stop_reason()) ? normal_termination : error_termination;
+}
+
+}  // namespace
+
+int run_deck(const RunRequest& given, Log& log) {
+  Run run{{}, given, {}, {}, {}, 0};
+  say_program(given, log);
+  if (given.isa) use_isa(*given.isa);
+  std::optional<Model> model;
   std::optional<Solver> solver;
   try {
-    solver.emplace(model, solver_options(request), diagnostics);
+    if (!given.restart.empty()) {
+      run.from = newest_restart_point(given.restart, log);
+      run.request = continued(given, run.from->file.head(), run.diagnostics);
+    }
+    if (run.diagnostics.ok()) {
+      model = load(run.request, run.diagnostics, &run.files);
+      refuse_unsupported(*model, run.diagnostics);
+      if (run.from) compare_files(run.from->file.head(), run.files, run.diagnostics);
+      run.reading_seconds = run.watch.seconds();
+    }
+    if (!run.diagnostics.ok()) throw InputError(run.diagnostics);
+    solver.emplace(*model, solver_options(run.request), run.diagnostics);
+    if (run.from) run.from->file.restore(solver->registry());
   } catch (const InputError&) {
-    refuse(diagnostics, log);
+    refuse(run.diagnostics, log);
+    return bad_input;
+  } catch (const RunError& error) {  // of the restart file
+    log.error(fmt::format("error: {}", error.what()));
     return bad_input;
   }
-
-  const std::filesystem::path folder = request.results_folder();
-  std::filesystem::create_directories(folder);
-  std::filesystem::remove(folder / "summary.json");  // of an earlier run: a killed one must not seem to have ended well
-  log.open_file(folder / "kardan.log");
-  log.line(fmt::format("deck: {}", request.deck.string()));
-  if (!model.title.empty()) log.line(fmt::format("title: {}", model.title));
-  ResultFiles results(*solver, folder);
-  note_files(results.writer(), diagnostics);
-  log.diagnostics(diagnostics);
-  Progress progress(log);
-  solver->attach(results);
-  solver->attach(progress);
-  record.failure = march(*solver);
-  results.close();
-  record.wall_seconds = watch.seconds();
-  write_summary(folder / "summary.json", summarize(*solver, record));
-  say_end(*solver, record.failure, record.wall_seconds, log);
-  say_results(folder, log);
-  return normal(solver->stop_reason()) ? normal_termination : error_termination;
+  return run_model(run, *solver, log);
 }
 
 int check_deck(const RunRequest& request, Log& log) {

@@ -51,15 +51,17 @@ ContactSystem::ContactSystem(const Model& model, State& state, const TiedContact
       penalties_.push_back(std::make_unique<PenaltyContact>(model, state, index, ties.hold(c), diagnostics));
     if (law == ContactLaw::transducer) transducers_.emplace_back(model, state, index, diagnostics);
   }
-  if (penalties_.empty()) return;
-  find_masses(state);
   for (std::size_t c = 0; c < state.contacts.size(); ++c) {
     ContactReport& report = state.contacts[c];
     const std::string name = "contacts." + std::to_string(c);
     state.registry.add_value({name + ".tracked_energy", "energy", "contacts.apply"}, report.tracked_energy);
     state.registry.add_value({name + ".reference_energy", "energy", "contacts.apply"}, report.reference_energy);
     state.registry.add_value({name + ".friction_energy", "energy", "contacts.apply"}, report.friction_energy);
+    state.registry.keep_value({name + ".rebuilds", "1", "contacts.apply"}, report.rebuilds);
   }
+  if (penalties_.empty()) return;
+  find_masses(state);
+  state.registry.keep({"contacts.inverse_mass", "1/mass", "contacts.apply"}, inverse_mass_);
   state.registry.add({"contacts.crowd", "1", "contacts.apply"}, crowd_);
 }
 

@@ -278,6 +278,14 @@ PassEnergy EdgeContact::evaluate(const State& state, bool birth, const PenaltyLa
   return energy;
 }
 
+void EdgeContact::register_state(Registry& registry, const std::string& name) {
+  registry.add_list({name + ".edge_touches", "mixed", "contacts.apply"}, touches_);
+  registry.keep({name + ".edges", "mixed", "contacts.drop_deleted"}, edges_);
+  registry.keep_list({name + ".edge_pairs", "1, length", "contacts.apply"}, pairs_);
+  registry.keep_value({name + ".edge_search_due", "1", "contacts.apply"}, renew_);
+  meter_.register_state(registry, name + ".edge_meter");
+}
+
 void EdgeContact::drop_dead(const Alive& alive) {
   for (Edge& e : edges_) e.dead = e.dead || !alive(e.kind, e.element);
   renew_ = true;

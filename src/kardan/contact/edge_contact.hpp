@@ -34,7 +34,7 @@ class EdgeContact {
   /// Energies of the step with the forces of its begin only; then no touches are left.
   PassEnergy end(const State& state);
   void drop_dead(const Alive& alive);
-  void register_state(Registry& registry, const std::string& name) { registry.add({name + ".edge_touches", "mixed", "contacts.apply"}, touches_); }
+  void register_state(Registry& registry, const std::string& name);
 
   std::size_t touches() const { return touches_.size(); }
   /// f(nodes of the first edge, shares, nodes of the second, shares, force on the first) for all touches, in order.

@@ -127,8 +127,9 @@ void KinematicTies::take_masses(State& state) {
   }
   loads_.resize(ties_.size());
   if (!empty()) {
-    state.registry.add({"ties.arm", "length", "contact.place"}, arms_);
-    state.registry.add({"ties.load", "mass, mass*length^2", "contact.pass_on_masses"}, loads_);
+    state.registry.add_list({"ties.arm", "length", "contact.place"}, arms_);
+    state.registry.add_list({"ties.load", "mass, mass*length^2", "contact.pass_on_masses"}, loads_);
+    state.registry.keep_list({"ties.points", "mixed", "contact.release"}, ties_);
     state.registry.add_value({"energy.eroded_kinetic", "energy", "contact.release"}, state.energy.eroded_kinetic);
   }
   pass_on_masses(state);

@@ -53,6 +53,18 @@ void MotionMeter::renew(const std::vector<Vec3>& x, const std::vector<Vec3>& v) 
   travel_ = checked_way_ = checked_travel_ = 0;
 }
 
+void MotionMeter::register_state(Registry& registry, const std::string& name) {
+  const std::string writer = "contacts.apply";
+  registry.keep_list({name + ".nodes", "1", "contacts.drop_deleted"}, nodes_);
+  registry.keep_list({name + ".x", "length", writer}, x_);
+  registry.keep_value({name + ".velocity", "length/time", writer}, velocity_);
+  registry.keep_value({name + ".shift", "length", writer}, shift_);
+  registry.keep_value({name + ".travel", "length", writer}, travel_);
+  registry.keep_value({name + ".last_travel", "length", writer}, last_travel_);
+  registry.keep_value({name + ".checked_way", "length", writer}, checked_way_);
+  registry.keep_value({name + ".checked_travel", "length", writer}, checked_travel_);
+}
+
 void MotionMeter::advance(const std::vector<Vec3>& v, double dt) {
   const double largest = largest_of(nodes_.size(), [nodes = nodes_.data(), v = v.data(), mean = velocity_](std::size_t i) {
     const Vec3 r = v[nodes[i]] - mean;

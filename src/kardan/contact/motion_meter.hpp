@@ -5,11 +5,13 @@
 // Everything is counted from the last renewal.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "kardan/base/index.hpp"
 #include "kardan/base/vec3.hpp"
+#include "kardan/state/registry.hpp"
 
 namespace kardan {
 
@@ -21,6 +23,7 @@ class MotionMeter {
   void watch(std::vector<NodeIndex> nodes) { nodes_ = std::move(nodes); }
   /// The positions of now are those of the list of candidates.
   void renew(const std::vector<Vec3>& x, const std::vector<Vec3>& v);
+  void register_state(Registry& registry, const std::string& name);
   /// After a step of length dt with the velocities v.
   void advance(const std::vector<Vec3>& v, double dt);
   /// Whether some node has moved by more than `way` since renew().

@@ -61,11 +61,23 @@ PenaltyContact::PenaltyContact(const Model& model, State& state, Index index, co
     born_ = 1;
     warn_of_penetrations(state, diagnostics);
   }
-  for (std::size_t d = 0; d < directions_.size(); ++d)
-    directions_[d]->pass.register_state(state.registry, fmt::format("contacts.{}.{}", index, d));
-  if (edges_) edges_->register_state(state.registry, fmt::format("contacts.{}", index));
-  state.registry.add_value({fmt::format("contacts.{}.step", index), "time", "contacts.apply"}, law_.step());
-  state.registry.add_value({fmt::format("contacts.{}.born", index), "1", "contacts.apply"}, born_);
+  register_state(state.registry);
+}
+
+void PenaltyContact::register_state(Registry& registry) {
+  const std::string name = fmt::format("contacts.{}", contact_), writer = "contacts.apply";
+  if (contact().eroding) {
+    for (std::size_t side = 0; side < surfaces_.size(); ++side) surfaces_[side].register_state(registry, fmt::format("{}.surface.{}", name, side));
+  }
+  for (std::size_t d = 0; d < directions_.size(); ++d) directions_[d]->pass.register_state(registry, fmt::format("{}.{}", name, d));
+  if (edges_) edges_->register_state(registry, name);
+  registry.add_value({name + ".step", "time", writer}, law_.step());
+  registry.add_value({name + ".born", "1", writer}, born_);
+  meter_.register_state(registry, name + ".meter");
+  registry.keep_value({name + ".margin", "length", writer}, margin_);
+  registry.keep_value({name + ".cycles_since_search", "1", writer}, cycles_);
+  registry.keep_value({name + ".releases", "1", writer}, releases_);
+  registry.keep_value({name + ".search_due", "1", writer}, renew_);
 }
 
 std::vector<NodeIndex> PenaltyContact::nodes() const { return union_of(surfaces_); }

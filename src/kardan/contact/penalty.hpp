@@ -46,6 +46,7 @@ class PenaltyContact {
 
  private:
   const Contact& contact() const { return model_.contacts[contact_]; }
+  void register_state(Registry& registry);
   TouchFrame frame(const State& state, bool birth) const;
   void search(const State& state);
   void add_energy(const Direction& direction, const PassEnergy& energy, ContactReport& report);

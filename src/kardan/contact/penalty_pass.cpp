@@ -106,20 +106,28 @@ void PenaltyPass::search(const State& state, const TouchFrame& frame, const std:
   search_.find(input, always, candidates_);
   const auto count = static_cast<std::ptrdiff_t>(chunks_.size());
 #pragma omp parallel for schedule(static) if (count > 2)
-  for (std::ptrdiff_t c = 0; c < count; ++c) list_active(chunks_[static_cast<std::size_t>(c)]);
-  weights_.clear();
-  for (const Chunk& chunk : chunks_)
-    weights_.push_back(static_cast<double>(chunk.end - chunk.begin + candidates_.first[chunk.end] - candidates_.first[chunk.begin]));
+  for (std::ptrdiff_t c = 0; c < count; ++c) wake_touched(chunks_[static_cast<std::size_t>(c)]);
+  weigh();
 }
 
 /// Nodes with candidates. What touched in the last cycle is looked at with all of its candidates: its way past the mid-surface must not be missed.
-void PenaltyPass::list_active(Chunk& chunk) {
-  chunk.active.clear();
-  for (Index p = chunk.begin; p < chunk.end; ++p)
-    if (candidates_.first[p] != candidates_.first[p + 1]) chunk.active.push_back(p);
+void PenaltyPass::wake_touched(Chunk& chunk) {
+  list_active(chunk);
   chunk.wake.assign(chunk.active.size(), 0.0F);
   for (const Touch& t : chunk.touches)
     std::fill(candidates_.wake.begin() + candidates_.first[t.place], candidates_.wake.begin() + candidates_.first[t.place + 1], 0.0F);
+}
+
+void PenaltyPass::list_active(Chunk& chunk) const {
+  chunk.active.clear();
+  for (Index p = chunk.begin; p < chunk.end; ++p)
+    if (candidates_.first[p] != candidates_.first[p + 1]) chunk.active.push_back(p);
+}
+
+void PenaltyPass::weigh() {
+  weights_.clear();
+  for (const Chunk& chunk : chunks_)
+    weights_.push_back(static_cast<double>(chunk.end - chunk.begin + candidates_.first[chunk.end] - candidates_.first[chunk.begin]));
 }
 
 void PenaltyPass::add_work(const State& state, const Touch& touch, PassEnergy& energy) const {
@@ -289,7 +297,21 @@ std::size_t PenaltyPass::touches() const {
 
 void PenaltyPass::register_state(Registry& registry, const std::string& name) {
   for (std::size_t c = 0; c < chunks_.size(); ++c)
-    registry.add({name + ".touches." + std::to_string(c), "mixed", "contacts.apply"}, chunks_[c].touches);
+    registry.add_list({name + ".touches." + std::to_string(c), "mixed", "contacts.apply"}, chunks_[c].touches);
+  const std::string writer = "contacts.search";
+  registry.keep_list({name + ".candidates.first", "1", writer}, candidates_.first);
+  registry.keep_list({name + ".candidates.segment", "1", writer}, candidates_.segment);
+  registry.keep_list({name + ".candidates.wake", "length", "contacts.apply"}, candidates_.wake);
+  for (std::size_t c = 0; c < chunks_.size(); ++c)
+    registry.keep_list({name + ".wake." + std::to_string(c), "length", "contacts.apply"}, chunks_[c].wake);
+  registry.keep_list({name + ".dead_segments", "1", "contacts.drop_deleted"}, dead_segment_);
+  registry.keep_list({name + ".dead_nodes", "1", "contacts.drop_deleted"}, dead_node_);
+  registry.after_restore([this] {
+    take_stiffnesses();
+    if (candidates_.first.empty()) return;
+    for (Chunk& chunk : chunks_) list_active(chunk);
+    weigh();
+  });
 }
 
 }  // namespace kardan

@@ -78,7 +78,9 @@ class PenaltyPass {
   };
 
   void take_stiffnesses();
-  void list_active(Chunk& chunk);
+  void wake_touched(Chunk& chunk);
+  void list_active(Chunk& chunk) const;
+  void weigh();
   void find_touches(const State& state, const TouchFrame& frame, Desk& desk, Chunk& chunk);
   void push_all(const State& state, const TouchFrame& frame, const PenaltyLaw& law, const std::vector<double>& inverse_mass, Chunk& chunk) const;
   double force_of_penetration(const PenaltyLaw& law) const;

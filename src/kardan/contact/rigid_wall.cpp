@@ -96,17 +96,8 @@ RigidWalls::RigidWalls(const Model& model, State& state, Diagnostics& diagnostic
     report.id = wall.id;
     report.segment_force.resize(wall.segments.size());
     state.walls.push_back(report);
-    Registry& registry = state.registry;
-    registry.add_value({"walls.displacement", "length", "contact.apply"}, own.displacement);
-    registry.add_value({"walls.velocity", "length/time", "contact.hold"}, own.velocity);
-    registry.add_value({"walls.loss", "energy", "contact.close_kick"}, own.loss);
-    registry.add_value({"walls.drive", "energy", "contact.close_kick"}, own.drive);
-    registry.add_value({"walls.arrived", "force*time", "contact.hold"}, own.arrived);
-    registry.add_value({"walls.arrived_normal", "force*time", "contact.hold"}, own.arrived_normal);
-    registry.add({"walls.marks", "1", "contact.hold"}, own.marks);
-    registry.add({"walls.braked", "1", "contact.hold"}, own.braked);
-    own.penalty.register_state(registry);
   }
+  for (std::size_t i = 0; i < walls_.size(); ++i) register_state(state, i);
   Vec3 low = state.nodes.x.empty() ? Vec3{} : state.nodes.x[0], high = low;
   for (const Vec3& x : state.nodes.x)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -114,6 +105,31 @@ RigidWalls::RigidWalls(const Model& model, State& state, Diagnostics& diagnostic
       high[k] = std::max(high[k], x[k]);
     }
   smallest_reach_ = 1e-3 * norm(high - low);
+}
+
+void RigidWalls::register_state(State& state, std::size_t i) {
+  Wall& own = walls_[i];
+  Registry& registry = state.registry;
+  const auto info = [i](const char* name, const char* unit, const char* writer) { return ArrayInfo{fmt::format("walls.{}.{}", i, name), unit, writer}; };
+  registry.add_value(info("displacement", "length", "contact.apply"), own.displacement);
+  registry.add_value(info("velocity", "length/time", "contact.hold"), own.velocity);
+  registry.add_value(info("loss", "energy", "contact.close_kick"), own.loss);
+  registry.add_value(info("drive", "energy", "contact.close_kick"), own.drive);
+  registry.add_value(info("arrived", "force*time", "contact.hold"), own.arrived);
+  registry.add_value(info("arrived_normal", "force*time", "contact.hold"), own.arrived_normal);
+  registry.add(info("marks", "1", "contact.hold"), own.marks);
+  registry.add(info("braked", "1", "contact.hold"), own.braked);
+  own.penalty.register_state(registry, fmt::format("walls.{}", i));
+  registry.keep_value(info("born", "1", "contact.apply"), own.born);
+  registry.keep_value(info("alive", "1", "contact.apply"), own.alive);
+  registry.keep_value(info("friction_axis", "1", "contact.hold"), own.friction_axis);
+  registry.keep_list(info("near", "1", "contact.before_kick"), own.near);
+  registry.keep_value(info("skin", "length", "contact.before_kick"), own.skin);
+  registry.keep_value(info("travelled", "length", "contact.apply"), own.travelled);
+  registry.keep_value(info("loss_now", "energy", "contact.close_kick"), own.loss_now);
+  registry.keep_value(info("drive_counted", "energy", "contact.close_kick"), own.drive_counted);
+  registry.keep_value(info("reported_displacement", "length", "contact.hold"), state.walls[i].displacement);
+  registry.keep_value(info("reported_velocity", "length/time", "contact.hold"), state.walls[i].velocity);
 }
 
 /// Which of the wall's nodes are held by the constraint method and which by springs.

@@ -99,6 +99,7 @@ class RigidWalls {
     bool welded;
   };
 
+  void register_state(State& state, std::size_t wall);
   void share_nodes(const Model& model, const State& state, Wall& wall, Diagnostics& diagnostics) const;
   void bear(const Model& model, const State& state, Wall& wall) const;
   void list_near(const State& state, Wall& wall, double fastest);

@@ -424,6 +424,14 @@ void Surface::expose(const Model& model, const Contact& contact, const ContactSi
   SurfaceBuilder(model, model.nodes.x, contact, side, rules, *this).expose(alive);
 }
 
+void Surface::register_state(Registry& registry, const std::string& name) {
+  const std::string writer = "contacts.drop_deleted";
+  registry.keep_list({name + ".segments", "mixed", writer}, segments_);
+  registry.keep({name + ".nodes", "mixed", writer}, nodes_);
+  registry.keep({name + ".first_at", "1", writer}, first_at_);
+  registry.keep_list({name + ".segment_at", "1", writer}, segment_at_);
+}
+
 Index Surface::place_of(NodeIndex node) const {
   const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), node, [](const SurfaceNode& n, NodeIndex i) { return n.node < i; });
   return found != nodes_.end() && found->node == node ? static_cast<Index>(found - nodes_.begin()) : none;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kardan/base/diagnostics.hpp"
@@ -68,6 +69,9 @@ class Surface {
 
   /// Elements have been deleted: faces of solids that are left and stand free now are added behind the segments there are. Sizes are those of t = 0.
   void expose(const Model& model, const Contact& contact, const ContactSide& side, const SurfaceRules& rules, const Alive& alive);
+
+  /// Of a surface that expose() changes.
+  void register_state(Registry& registry, const std::string& name);
 
   const std::vector<Segment>& segments() const { return segments_; }
   const std::vector<SurfaceNode>& nodes() const { return nodes_; }  ///< ascending

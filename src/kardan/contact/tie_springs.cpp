@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "kardan/base/rotation.hpp"
@@ -113,6 +114,11 @@ TieSprings::TieSprings(const Model& model, State& state, std::vector<TiedPoint> 
   state.registry.add({"ties.reference_work", "energy", "contact.account"}, reference_);
   state.registry.add({"ties.counted_work", "energy", "contact.account"}, counted_);
   state.registry.add_value({"ties.step", "time", "contact.apply"}, step_);
+  for (std::size_t c = 0; c < holds_.size(); ++c) {
+    if (holds_[c].held.empty()) continue;
+    state.registry.keep({"ties." + std::to_string(c) + ".held", "1", "contact.apply"}, holds_[c].held);
+    state.registry.keep_value({"ties." + std::to_string(c) + ".releases", "1", "contact.apply"}, holds_[c].releases);
+  }
 }
 
 /// The stiffness falls with the square of the grown step, k' = k (dt/dt')^2: forces stay, stretches grow. A tie that is damaged keeps its

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "kardan/contact/wall_shape.hpp"
@@ -43,7 +44,9 @@ class WallPenalty {
 
   /// `nodes`: ascending, of rigid bodies or free ones with mass; `scale`: RWPNAL RWKSF, positive.
   void initialise(const State& state, const std::vector<NodeIndex>& nodes, double scale);
-  void register_state(Registry& registry) { registry.add({"walls.springs", "force/length, length, 1", "contact.apply"}, springs_); }
+  void register_state(Registry& registry, const std::string& name) {
+    registry.add({name + ".springs", "force/length, length, 1", "contact.apply"}, springs_);
+  }
   bool empty() const { return points_.empty(); }
 
   /// Nodes that are inside now may stay as deep as they are.

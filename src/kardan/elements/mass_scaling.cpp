@@ -13,6 +13,8 @@ void MassScaling::start(const Model&, State& state) {
   state.added_mass.physical = std::accumulate(state.nodes.mass.begin(), state.nodes.mass.end(), 0.0);
   state.registry.add_value({"mass.added", "mass", "elements.scale_masses"}, state.added_mass.added);
   state.registry.add({"nodes.mass", "mass", "elements.scale_masses"}, state.nodes.mass);
+  state.registry.keep({"nodes.inertia", "mass*length^2", "elements.scale_masses"}, state.nodes.inertia);
+  state.registry.keep({"energy.part_mass", "mass", "elements.scale_masses"}, state.energy.part_mass);
 }
 
 bool MassScaling::active(const Model& model, const State& state) const {

@@ -1,6 +1,7 @@
 #include "kardan/io/output_schedule.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace kardan {
 
@@ -18,6 +19,14 @@ bool OutputSchedule::due(double time, double step) const {
   if (time <= last_ + near) return false;
   if (end_ > 0 && time >= end_ - near) return true;
   return paused_ ? interval_at(time) > 0 : time >= next_ - near;
+}
+
+nlohmann::json OutputSchedule::mark() const { return {{"next", next_}, {"last", last_}, {"paused", paused_}}; }
+
+void OutputSchedule::resume(const nlohmann::json& mark) {
+  mark.at("next").get_to(next_);
+  mark.at("last").get_to(last_);
+  mark.at("paused").get_to(paused_);
 }
 
 void OutputSchedule::written(double time, double step) {

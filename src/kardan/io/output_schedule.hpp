@@ -1,6 +1,8 @@
 // When a result file is due.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "kardan/model/control.hpp"
 #include "kardan/model/curve.hpp"
 
@@ -18,6 +20,10 @@ class OutputSchedule {
   bool due(double time, double step) const;
   /// Output has been written at `time`.
   void written(double time, double step);
+
+  /// What a later run needs to go on.
+  nlohmann::json mark() const;
+  void resume(const nlohmann::json& mark);
 
  private:
   double interval_at(double time) const { return interval_ != nullptr ? interval_->value(time) : dt_; }

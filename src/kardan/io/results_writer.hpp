@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ class ResultsWriter {
   /// Makes `directory` and removes the result files of an earlier run from it. Writes d3plot's geometry.
   /// @throws RunError with path and reason, here and at every write.
   ResultsWriter(const Model& model, const State& state, std::filesystem::path directory, WriterOptions options);
+  /// Goes on where mark() was taken: what the files hold beyond it is cut off, and files that came later are removed.
+  ResultsWriter(const Model& model, const State& state, std::filesystem::path directory, WriterOptions options, const nlohmann::json& mark);
   ~ResultsWriter();
   ResultsWriter(ResultsWriter&&) noexcept;
   ResultsWriter& operator=(ResultsWriter&&) noexcept;
@@ -38,8 +41,17 @@ class ResultsWriter {
   void write_due(const Model& model, const State& state);
   /// Writes every file that has no output at t_n yet, due or not: the last state of a run that stops early.
   void write_now(const Model& model, const State& state);
+  /// Writes a state into d3plot if there is none at t_n yet; its schedule knows nothing of it.
+  void write_d3plot(const Model& model, const State& state);
   /// Flushes everything.
   void finish();
+  /// Everything written so far is on the disk.
+  void sync();
+
+  /// Between two cycles, after sync(): what a later run needs to go on, with the sizes of all files.
+  nlohmann::json mark() const;
+  /// Why a run cannot go on from this mark (a file is missing or shorter than it was); empty if it can.
+  static std::string fault(const std::filesystem::path& directory, const nlohmann::json& mark);
 
   /// The deck asked for nothing; d3plot (20 states) and glstat (a thousandth of the end time) are written all the same.
   bool defaulted() const;

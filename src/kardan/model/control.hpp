@@ -56,6 +56,7 @@ struct OutputControl {
   std::vector<NodeIndex> history_nodes;
   std::vector<Index> history_shells, history_solids, history_beams, history_discrete;
   int maxint = 3;            ///< *DATABASE_EXTENT_BINARY; its size is the number of layers
+  std::int64_t restart_cycles = 0; ///< *DATABASE_BINARY_D3DUMP, _RUNRSF: cycles between two restart files; 0 = not asked for
   bool global_shell_axes = false;  ///< EOCS = 2 of *CONTROL_OUTPUT: shells of ELOUT in global axes, else in their own
 };
 

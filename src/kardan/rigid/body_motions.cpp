@@ -89,6 +89,7 @@ std::vector<BodyConstraint> BodyMotions::initialise(const Model& model, State& s
     }
   }
   travelled_.assign(drivers_.size(), 0.0);
+  reported_work_.assign(drivers_.size(), 0.0);
   directions_.assign(drivers_.size(), Vec3{});
   stoppers_.initialise(model, state, diagnostics);
   for (BodyIndex body : stoppers_.bodies()) constraint_for(body);
@@ -203,6 +204,7 @@ void BodyMotions::account(const Model& model, State& state, const BodySet& bodie
     const Driver& driver = drivers_[k];
     ReactionReport& report = state.reactions[driver.reaction];
     report.force = report.moment = {};
+    report.work = reported_work_[k];
     if (!alive(model.prescribed_motions[driver.motion], clock)) continue;
     const auto b = static_cast<std::size_t>(bodies.constraints[driver.constraint].body);
     const BodyTrial& after = bodies.trial[b];
@@ -220,7 +222,7 @@ void BodyMotions::account(const Model& model, State& state, const BodySet& bodie
     const double work = 0.5 * dot(impulse, before.velocity + after.constrained_velocity) +
                         0.5 * dot(angular_impulse, before.angular_velocity + after.angular_velocity) -
                         stoppers_.work_on(driver.constraint);
-    report.work += work;
+    report.work = reported_work_[k] += work;
     work_of_kick_ += work;
   }
 }
@@ -229,6 +231,7 @@ void BodyMotions::register_state(State& state) {
   state.registry.add({"rigid.motion_travelled", "length or angle", "rigid.kick"}, travelled_);
   state.registry.add_value({"rigid.motion_work", "energy", "rigid.account"}, work_before_);
   state.registry.add_value({"rigid.motion_work_of_kick", "energy", "rigid.account"}, work_of_kick_);
+  state.registry.keep({"rigid.motion_reported_work", "energy", "rigid.kick"}, reported_work_);
   stoppers_.register_state(state);
 }
 

@@ -60,6 +60,7 @@ class BodyMotions {
   std::vector<Fixed> fixed_;
   Stoppers stoppers_;
   std::vector<double> travelled_;   ///< by driver: displacement (rotation) along its direction so far
+  std::vector<double> reported_work_;  ///< by driver, so far: 0 where another driver of the body reports it
   std::vector<Vec3> directions_;    ///< by driver: of the kick in progress
   std::vector<std::uint8_t> counted_;  ///< scratch by constraint
   double work_before_ = 0, work_of_kick_ = 0;

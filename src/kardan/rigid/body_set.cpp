@@ -56,6 +56,12 @@ void BodySet::initialise(const State& state, std::vector<BodyConstraint> body_co
     mobility[static_cast<std::size_t>(constraints[c].body)].constraint = static_cast<Index>(c);
 }
 
+void BodySet::register_state(Registry& registry) {
+  registry.keep({"bodies.rotation", "1", "rigid.drift"}, rotation);
+  registry.keep({"bodies.mobility", "1/mass, 1/(mass*length^2)", "rigid.kick"}, mobility);
+  registry.keep({"bodies.constraints", "mixed", "rigid.kick"}, constraints);
+}
+
 void BodySet::update_mobility(std::size_t b) {
   Mobility& m = mobility[b];
   if (m.constraint == none) {

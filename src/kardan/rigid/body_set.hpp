@@ -64,6 +64,8 @@ class BodySet {
   void initialise(const State& state, std::vector<BodyConstraint> constraints);
 
   std::size_t size() const { return inverse_mass_.size(); }
+  /// Rotations and responses: what reads them between two updates, reads those of the cycle before.
+  void register_state(Registry& registry);
 
   /// Response to impulses at t_n from the rotation at t_n.
   void update_mobility(std::size_t b);

@@ -40,6 +40,8 @@ class ExactJoints {
 
   void initialise(const JointSet& joints);
 
+  void register_state(Registry& registry) { registry.keep_value({"joints.largest_gap", "length, angle", "rigid.kick"}, largest); }
+
   /// Finds the impulses of the kick and leaves the trial poses on the constraints. The trial momenta hold the kick of all
   /// other forces. @throws RunError naming the worst joint where the iteration does not converge.
   void solve(const Model& model, const State& state, JointSet& joints, BodySet& bodies, double kick, double h);

@@ -112,6 +112,21 @@ void JointSet::analyse(const BodySet& bodies) {
   inactive.assign(total_rows, 0);
 }
 
+void JointSet::register_state(Registry& registry) {
+  registry.add({"joints.memory", "mixed", "rigid.drift"}, memory);
+  registry.add({"joints.failed", "1", "rigid.kick"}, failed);
+  registry.keep({"joints.jacobian", "1, length", "rigid.kick"}, jacobian);
+  registry.keep({"joints.arms", "length", "rigid.kick"}, arms);
+  registry.keep({"joints.inactive_rows", "1", "rigid.kick"}, inactive);
+  registry.after_restore([this] {
+    std::vector<std::pair<int, int>> rows_left_out;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      for (int r = 0; r < joints[j].size; ++r)
+        if (inactive[offset[j] + static_cast<std::size_t>(r)]) rows_left_out.emplace_back(static_cast<int>(j), r);
+    set_inactive(rows_left_out);
+  });
+}
+
 void JointSet::linearise(const State& state, const BodySet& bodies) {
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const JointRuntime& joint = joints[j];

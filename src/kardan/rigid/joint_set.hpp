@@ -61,6 +61,7 @@ class JointSet {
 
   /// Fixes the pattern of A once joints and rows stand.
   void analyse(const BodySet& bodies);
+  void register_state(Registry& registry);
   /// Jacobians from the poses at t_n.
   void linearise(const State& state, const BodySet& bodies);
   /// A = J W J^T + regularisation x the diagonal A would have if the bodies were free.

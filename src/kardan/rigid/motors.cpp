@@ -66,6 +66,8 @@ void Motors::account(const JointSet& joints, const std::vector<double>& force, c
 void Motors::register_state(State& state) {
   state.registry.add({"joints.motor_target", "length or angle", "rigid.kick"}, reached_);
   state.registry.add({"joints.motor_rate", "length/time or angle/time", "rigid.kick"}, rate_);
+  state.registry.add_value({"joints.motor_work", "energy", "rigid.kick"}, work_before_);
+  state.registry.add_value({"joints.motor_work_of_kick", "energy", "rigid.kick"}, work_of_kick_);
   state.registry.add({"joints.motor_rate_before", "length/time or angle/time", "rigid.kick"}, rate_before_);
 }
 

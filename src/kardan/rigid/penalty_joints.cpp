@@ -37,6 +37,15 @@ void PenaltyJoints::initialise(const Model& model, const JointSet& joints, Diagn
   }
 }
 
+void PenaltyJoints::register_state(Registry& registry) {
+  registry.add({"joints.penalty_stiffness", "force/length", "rigid.kick"}, stiffness_);
+  registry.add({"joints.penalty_dissipated", "energy", "rigid.kick"}, dissipated);
+  registry.keep({"joints.penalty_damper", "force*time/length", "rigid.kick"}, damper_);
+  registry.keep_value({"joints.penalty_dt", "time", "rigid.kick"}, refreshed_dt_);
+  registry.keep_value({"joints.penalty_age", "1", "rigid.kick"}, age_);
+  registry.keep_value({"joints.penalty_largest_gap", "length, angle", "rigid.kick"}, largest);
+}
+
 void PenaltyJoints::find_group_sizes(const JointSet& joints) {
   for (std::size_t j = 0; j < joints.joints.size(); ++j) {
     const int m = joints.joints[j].size;

@@ -39,7 +39,8 @@ class PenaltyJoints {
   /// Adds the impulses of the springs and dampers to the trial momenta. Call after the Jacobians at t_n stand.
   void apply(const State& state, JointSet& joints, BodySet& bodies, double kick, double h);
 
-  std::vector<double>& stiffness() { return stiffness_; }
+  void register_state(Registry& registry);
+
   std::vector<double> force;               ///< of each row at t_n (JointSet::offset)
   std::vector<double> stored, dissipated;  ///< energy by joint: in the springs at t_n, in the dampers so far
   JointSeparation largest;                 ///< of all cycles so far

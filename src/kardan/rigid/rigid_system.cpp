@@ -73,16 +73,17 @@ RigidSystem::RigidSystem(const Model& model, State& state, JointHolding holding,
   s.penalty.initialise(model, s.joints, diagnostics);
   state.joints.assign(model.joints.size(), {});
 
-  state.registry.add({"joints.memory", "mixed", "rigid.drift"}, s.joints.memory);
-  state.registry.add({"joints.failed", "1", "rigid.kick"}, s.joints.failed);
   state.registry.add({"joints.force", "force or moment", "rigid.kick"},
                      holding == JointHolding::exact ? s.exact.force : s.penalty.force);
   state.registry.add_value({"rigid.reported_work", "energy", "rigid.account"}, s.reported_work);
-  state.registry.add({"joints.penalty_stiffness", "force/length", "rigid.kick"}, s.penalty.stiffness());
-  state.registry.add({"joints.penalty_dissipated", "energy", "rigid.kick"}, s.penalty.dissipated);
   s.motions.register_state(state);
   s.motors.register_state(state);
   s.stiffness.register_state(state);
+  s.bodies.register_state(state.registry);
+  s.joints.register_state(state.registry);
+  s.exact.register_state(state.registry);
+  s.penalty.register_state(state.registry);
+  state.registry.keep_list({"joints.acting_force", "force or moment", "rigid.kick"}, s.acting);
 }
 
 RigidSystem::~RigidSystem() = default;
@@ -342,6 +343,13 @@ void RigidSystem::update_reports(const Model&, State& state) const {
   }
 }
 
+void RigidSystem::account_work(State& state) {
+  Impl& s = *impl_;
+  const double work = s.motions.work(state.clock) + s.motors.work(state.clock);
+  state.energy.external_work += work - s.reported_work;
+  s.reported_work = work;
+}
+
 void RigidSystem::account(const Model&, State& state) {
   Impl& s = *impl_;
   s.fill_body_reports(state);
@@ -358,9 +366,6 @@ void RigidSystem::account(const Model&, State& state) {
   for (std::size_t j = 0; j < s.joints.joints.size(); ++j)
     if (s.holding == JointHolding::penalty) state.energy.joint += s.penalty.stored[j] + s.penalty.dissipated[j];
   state.energy.joint += s.stiffness.energy(state);
-  const double work = s.motions.work(state.clock) + s.motors.work(state.clock);
-  state.energy.external_work += work - s.reported_work;
-  s.reported_work = work;
   state.energy.stopper += s.motions.stopper_energy();
 }
 

@@ -44,8 +44,11 @@ class RigidSystem {
   void drift(const Model& model, State& state);
   /// Brings x, v, omega, v_now and a of all nodes of bodies, and the joints' reports, up to date at t_n (before output).
   void update_reports(const Model& model, State& state) const;
+  /// Every cycle after kick(): work of motions and motors up to t_n into state.energy.external_work. In every one, so that its rounding does not
+  /// depend on who looks when.
+  void account_work(State& state);
   /// Reports of the bodies and energies at t_n into state.bodies.report and state.energy: kinetic energy of the bodies by
-  /// part, joints, stoppers, work of motions and motors. Needed only in cycles that somebody looks at; call it after kick()
+  /// part, joints, stoppers. Needed only in cycles that somebody looks at; call it after kick()
   /// and before update_reports().
   void account(const Model& model, State& state);
 

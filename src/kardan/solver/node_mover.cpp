@@ -205,6 +205,11 @@ void NodeMover::take_masses(const State& state, const std::vector<NodeIndex>& no
   }
 }
 
+void NodeMover::register_state(const Model& model, State& state) {
+  state.registry.keep_value({"nodes.fastest", "length/time", "nodes.drift"}, fastest_);
+  state.registry.after_restore([this, &model, &state] { sort(model, state); });
+}
+
 void NodeMover::settle(State& state) {
   NodeState& nodes = state.nodes;
   const double kick = state.clock.kick(), share = state.clock.share_before();

@@ -30,6 +30,8 @@ class NodeMover {
   void kick(const Model& model, State& state, const ElementSystem& elements, bool looked_at);
   /// Takes over masses and rotary inertias of nodes that have changed.
   void take_masses(const State& state, const std::vector<NodeIndex>& nodes);
+  /// What the next cycle reads; nodes are sorted anew after a restore.
+  void register_state(const Model& model, State& state);
   /// In a cycle that is looked at, after the velocities were constrained: v_now, a, omega_now and alpha at t_n.
   void settle(State& state);
   /// After a cycle that broke: v_now and omega_now are the last velocities known, a and alpha zero.

@@ -36,24 +36,6 @@ void for_each_mass(const State& state, F&& f) {
     f(state.bodies.info[b].mass, state.bodies.motion[b].center, state.bodies.motion[b].velocity);
 }
 
-/// The velocities of a state, put aside.
-struct Velocities {
-  std::vector<Vec3> v, omega;
-  std::vector<BodyMotion> motion;
-
-  explicit Velocities(const State& state) : v(state.nodes.v), omega(state.nodes.omega), motion(state.bodies.motion) {}
-  void restore(State& state) const {
-    state.nodes.v = v;
-    state.nodes.omega = omega;
-    for (std::size_t b = 0; b < motion.size(); ++b) {
-      BodyMotion& m = state.bodies.motion[b];
-      m.velocity = motion[b].velocity;
-      m.angular_velocity = motion[b].angular_velocity;
-      m.angular_momentum = inertia_of(state, b) * m.angular_velocity;
-    }
-  }
-};
-
 void scale_velocities(State& state, double factor) {
   for (std::vector<Vec3>* velocities : {&state.nodes.v, &state.nodes.omega})
     for (Vec3& v : *velocities) v *= factor;
@@ -65,6 +47,29 @@ void scale_velocities(State& state, double factor) {
 }
 
 }  // namespace
+
+void Velocities::restore(State& state) const {
+  state.nodes.v = v_;
+  state.nodes.omega = omega_;
+  for (std::size_t b = 0; b < motion_.size(); ++b) {
+    BodyMotion& m = state.bodies.motion[b];
+    m.velocity = motion_[b].velocity;
+    m.angular_velocity = motion_[b].angular_velocity;
+    m.angular_momentum = inertia_of(state, b) * m.angular_velocity;
+  }
+}
+
+void Velocities::register_state(Registry& registry) {
+  registry.keep({"relaxation.v", "length/time", "solver"}, v_);
+  registry.keep({"relaxation.omega", "1/time", "solver"}, omega_);
+  registry.keep({"relaxation.bodies", "mixed", "solver"}, motion_);
+}
+
+void Relaxation::register_state(Registry& registry) {
+  registry.keep_value({"relaxation.watch", "energy, 1", "solver"}, watch);
+  registry.keep_value({"relaxation.carry", "time", "solver"}, hand.carry());
+  initial.register_state(registry);
+}
 
 MotionEnergy motion_energy(const State& state) {
   double mass = 0;
@@ -123,39 +128,41 @@ void RelaxationWatch::add(const MotionEnergy& energy) {
 }
 
 void Solver::relax() {
-  relaxation_pending_ = false;
   const DynamicRelaxation& control = model_.control.relaxation;
-  const Velocities initial(state_);
-  scale_velocities(state_, 0.0);
-  state_.clock.relaxing = 1;
-  ClockHand hand;
-  RelaxationWatch watch(control);
-  looked_at_ = true;  // every node's forces are cleared at first
-  while (!stop_requested_.load(std::memory_order_relaxed)) {
-    clear_forces();
-    looked_at_ = false;
-    loads_->apply(model_, state_);
-    walls_->apply(model_, state_, nodes_->fastest());
-    ties_->apply(model_, state_);
-    elements_->internal_forces(model_, state_);
-    choose_time_step(*relaxation_rule_);
-    contact();
-    scale_velocities(state_, control.factor);
-    kick();
-    watch.add(motion_energy(state_));
-    if (watch.at_rest() || state_.clock.time >= control.end_time) break;  // not drifted: stresses and positions agree
-    rigid_->drift(model_, state_);
-    nodes_->drift(state_);
-    ties_->drift(state_);
-    hand.advance(state_.clock, control.end_time);
+  if (!state_.clock.relaxing) {
+    scale_velocities(state_, 0.0);
+    state_.clock.relaxing = 1;
   }
+  clear_forces();  // of all nodes at first
+  looked_at_ = false;
+  loads_->apply(model_, state_);
+  walls_->apply(model_, state_, nodes_->fastest());
+  ties_->apply(model_, state_);
+  elements_->internal_forces(model_, state_);
+  choose_time_step(*relaxation_rule_);
+  contact();
+  scale_velocities(state_, control.factor);
+  kick();
+  RelaxationWatch& watch = relaxation_->watch;
+  watch.add(motion_energy(state_));
+  if (watch.at_rest() || state_.clock.time >= control.end_time || stop_requested_.load(std::memory_order_relaxed))
+    return end_relaxation();  // not drifted: stresses and positions agree
+  rigid_->drift(model_, state_);
+  nodes_->drift(state_);
+  ties_->drift(state_);
+  relaxation_->hand.advance(state_.clock, control.end_time);
+}
+
+void Solver::end_relaxation() {
+  const RelaxationWatch& watch = relaxation_->watch;
   spdlog::info("dynamic relaxation: {} after {} cycles, kinetic energy {:.3g} of its largest", watch.at_rest() ? "at rest" : "ended",
                watch.cycles(), watch.ratio());
+  relaxation_pending_ = false;
   looked_at_ = true;
   state_.clock = Clock{};
   state_.energy.external_work = 0;
   contacts_->restart(state_);
-  initial.restore(state_);
+  relaxation_->initial.restore(state_);
   loads_->restart(model_, state_);
   walls_->restart();
   ties_->restart();

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "kardan/model/control.hpp"
+#include "kardan/solver/time_step.hpp"
 #include "kardan/state/state.hpp"
 
 namespace kardan {
@@ -33,6 +35,28 @@ class RelaxationWatch {
   std::int64_t cycles_ = 0;
   double ratio_ = 1;
   bool at_rest_ = false;
+};
+
+/// The velocities of a state, put aside.
+class Velocities {
+ public:
+  explicit Velocities(const State& state) : v_(state.nodes.v), omega_(state.nodes.omega), motion_(state.bodies.motion) {}
+  void restore(State& state) const;
+  void register_state(Registry& registry);
+
+ private:
+  std::vector<Vec3> v_, omega_;
+  std::vector<BodyMotion> motion_;
+};
+
+/// What a dynamic relaxation carries from cycle to cycle beside the state.
+struct Relaxation {
+  Relaxation(const DynamicRelaxation& control, const State& state) : watch(control), initial(state) {}
+  void register_state(Registry& registry);
+
+  RelaxationWatch watch;
+  ClockHand hand;
+  Velocities initial;   ///< of t = 0
 };
 
 }  // namespace kardan

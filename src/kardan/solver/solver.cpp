@@ -13,6 +13,7 @@
 #include "kardan/elements/element_system.hpp"
 #include "kardan/loads/load_system.hpp"
 #include "kardan/solver/node_mover.hpp"
+#include "kardan/solver/relaxation.hpp"
 
 namespace kardan {
 
@@ -104,9 +105,11 @@ void Solver::set_up(const SolverOptions& options, Diagnostics& diagnostics) {
   facts.rigid_default = rigid_->default_time_step(model_, state_);
   rule_ = std::make_unique<TimeStepRule>(model_, facts, options.dt, end_time_);
   relaxation_pending_ = model_.control.relaxation.on;
-  if (relaxation_pending_)
+  if (relaxation_pending_) {
+    relaxation_ = std::make_unique<Relaxation>(model_.control.relaxation, state_);
     relaxation_rule_ = std::make_unique<TimeStepRule>(model_, facts, options.dt, model_.control.relaxation.end_time,
                                                       model_.control.relaxation.step_scale);
+  }
   diagnostics.notice(rule_->reason());
 }
 
@@ -125,6 +128,18 @@ void Solver::register_state() {
   registry.add({"nodes.moment", "force*length", "elements, loads"}, state_.nodes.moment);
   registry.add({"bodies.motion", "length, 1, length/time, mass*length^2/time", "rigid"}, state_.bodies.motion);
   registry.add_value({"energy.external_work", "energy", "loads, rigid"}, state_.energy.external_work);
+  registry.keep_value({"energy.initial", "energy", "solver"}, state_.energy.initial);
+  registry.keep({"welds", "mixed", "loads, elements"}, state_.welds);
+  registry.keep_value({"solver.first_dt", "time", "solver"}, first_dt_);
+  registry.keep_value({"solver.deleted", "1", "solver"}, deleted_);
+  registry.keep_value({"clock.relaxing", "1", "solver"}, clock.relaxing);
+  registry.keep_value({"solver.relaxation_pending", "1", "solver"}, relaxation_pending_);
+  if (relaxation_) relaxation_->register_state(registry);
+  if (!ties_->empty() && model_.control.time_step.dt2ms == 0) {  // ties that end give masses back; scaled masses are registered already
+    registry.keep({"nodes.mass", "mass", "contact.drop_deleted"}, state_.nodes.mass);
+    registry.keep({"nodes.inertia", "mass*length^2", "contact.drop_deleted"}, state_.nodes.inertia);
+  }
+  nodes_->register_state(model_, state_);
 }
 
 StopReason Solver::run() {
@@ -137,7 +152,10 @@ bool Solver::step() {
   if (stop_ != StopReason::running) return false;
   timers_.start();
   try {
-    if (relaxation_pending_) relax();
+    if (relaxation_pending_) {
+      relax();
+      return true;
+    }
     clear_forces();
     loads_->apply(model_, state_);
     walls_->apply(model_, state_, nodes_->fastest());
@@ -167,7 +185,12 @@ bool Solver::step() {
     notify();
     throw;
   }
-  notify();
+  try {
+    notify();
+  } catch (const RunError&) {  // a result cannot be written
+    stop_ = StopReason::broken;
+    throw;
+  }
   timers_.lap(Phase::observers);
   if (stop_ != StopReason::running) return false;
   rigid_->drift(model_, state_);
@@ -244,6 +267,7 @@ void Solver::account() {
   // Work is summed every cycle; the energies at t_n only where somebody looks at them.
   if (looked_at_) energy.begin(model_.parts.size());
   loads_->account(model_, state_);
+  rigid_->account_work(state_);
   walls_->close_kick(state_);
   ties_->account(state_);
   if (!looked_at_) return;

@@ -28,6 +28,7 @@ class ElementSystem;
 class RigidWalls;
 class LoadSystem;
 class NodeMover;
+struct Relaxation;
 class TiedContacts;
 
 /// What the command line can override.
@@ -62,11 +63,14 @@ class Solver {
   /// @throws RunError if the run breaks, after all observers have seen the last good state with stop == broken.
   StopReason run();
 
-  /// One step; false if the run has ended. For callers that steer the loop themselves.
+  /// One step, or one cycle of the dynamic relaxation; false if the run has ended. For callers that steer the loop themselves.
   bool step();
 
   /// Makes the run end after the cycle in progress. Safe in a signal handler and from other threads.
   void request_stop() { stop_requested_.store(true, std::memory_order_relaxed); }
+
+  /// The arrays of the run. Before the first step a restart may fill them: the run then goes on from there.
+  Registry& registry() { return state_.registry; }
 
   const Model& model() const { return model_; }
   const State& state() const { return state_; }
@@ -84,7 +88,9 @@ class Solver {
   void choose_time_step(const TimeStepRule& rule);
   void contact();
   void kick();
+  /// One cycle of the dynamic relaxation.
   void relax();
+  void end_relaxation();
   void account();
   StopReason reason_to_stop() const;
   void find_due_observers();
@@ -100,6 +106,7 @@ class Solver {
   std::unique_ptr<TiedContacts> ties_;
   std::unique_ptr<NodeMover> nodes_;
   std::unique_ptr<TimeStepRule> rule_, relaxation_rule_;
+  std::unique_ptr<Relaxation> relaxation_;  // null where there is none
   ClockHand clock_hand_;
   StepBound step_;
   double first_dt_ = 0, end_time_ = 0;

@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::uint64_t fnv_prime = 1099511628211ULL;
 
-/// FNV-1a on 8-byte words (the tail byte by byte): byte-wise FNV would cost a second per gigabyte.
+}  // namespace
+
 std::uint64_t fnv1a(std::uint64_t h, std::span<const std::byte> data) {
   std::size_t i = 0;
   for (; i + 8 <= data.size(); i += 8) {
@@ -21,11 +22,10 @@ std::uint64_t fnv1a(std::uint64_t h, std::span<const std::byte> data) {
   return h;
 }
 
-}  // namespace
-
 std::uint64_t Registry::hash() const {
-  std::uint64_t h = 14695981039346656037ULL;
+  std::uint64_t h = fnv1a_start;
   for (const Entry& entry : entries_) {
+    if (!entry.hashed) continue;
     h = fnv1a(h, std::as_bytes(std::span(entry.info.name.data(), entry.info.name.size())));
     h = fnv1a(h, entry.bytes());
   }

@@ -242,6 +242,20 @@ void BeamForces::preload_beam(const Model& model, const InitialStress& given, In
 
 void BeamForces::internal_forces(const Model& model, State& state) {
   elements_.internal_forces(model, state, [](const State&, Index) { return "has no length or a value that is not finite"; });
+  if (!welds_.empty()) note_failures(state);
+}
+
+/// In the cycle in which they fail, whoever looks at it.
+void BeamForces::note_failures(State& state) {
+  const std::int64_t deleted = elements_.deleted();
+  if (deleted == known_deleted_) return;
+  known_deleted_ = deleted;
+  for (std::size_t i = 0; i < welds_.size(); ++i) {
+    WeldReport& weld = state.welds[first_weld_ + i];
+    if (weld.failed || elements_.alive(welds_[i]) > 0) continue;
+    weld.failed = true;
+    weld.failure_time = state.clock.time;
+  }
 }
 
 void BeamForces::report(const State& state, BeamResults& results) const {
@@ -282,10 +296,6 @@ void BeamForces::report_welds(State& state) const {
     weld.torsion = r.torsion[e];
     const auto& n = (*nodes_)[e];
     weld.length = norm(state.nodes.x[n[1]] - state.nodes.x[n[0]]);
-    if (!weld.failed && !(elements_.alive(welds_[i]) > 0)) {
-      weld.failed = true;
-      weld.failure_time = state.clock.time;
-    }
   }
 }
 

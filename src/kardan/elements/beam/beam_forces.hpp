@@ -2,6 +2,7 @@
 // discrete_beams.hpp.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -37,6 +38,7 @@ class BeamForces {
   void report_welds(State& state) const;
 
  private:
+  void note_failures(State& state);
   bool set_up_part(const Model& model, PartIndex part, Diagnostics& diagnostics);
   void damp(const Model& model);
   void preload(const Model& model, Diagnostics& diagnostics);
@@ -48,6 +50,7 @@ class BeamForces {
   std::vector<std::shared_ptr<const BeamProperties>> properties_; ///< likewise
   const std::vector<std::array<NodeIndex, 3>>* nodes_;            ///< of the model's beams
   std::vector<Index> welds_;                                      ///< beams that are spot welds
+  std::int64_t known_deleted_ = 0;                                ///< beams, when welds were last looked at
   std::size_t first_weld_ = 0;                                    ///< of them in state.welds
 };
 

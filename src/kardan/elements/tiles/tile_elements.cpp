@@ -73,6 +73,9 @@ void TileElements::start(State& state) {
   if (deletable) {
     alive_.assign(mesh_.element.size(), 1.0);
     state.registry.add({input_.name + ".alive", "1", writer}, alive_);
+    state.registry.keep({input_.name + ".eroded_energy", "energy", writer}, eroded_);
+    state.registry.keep({input_.name + ".deleted", "1", writer}, deleted_);
+    state.registry.keep_value({input_.name + ".erode_below", "time", "solver"}, erode_below_);
   }
   if (deletable || input_.energies) {
     energy_.assign(mesh_.element.size(), 0.0);
@@ -88,6 +91,14 @@ void TileElements::prepare_mass_scaling(State& state) {
   for (std::size_t t = 0; t < mesh_.tiles.size(); ++t) step_factor_[t].resize(mesh_.tiles[t].blocks * block_lanes, 1.0);
   side_factor_ = step_factor_;
   state.registry.add({input_.name + ".mass_factor", "1", "elements.scale_masses"}, mass_factor_);
+  state.registry.after_restore([this] {
+    for (std::size_t t = 0; t < mesh_.tiles.size(); ++t)
+      for (std::size_t i = 0; i < mesh_.tiles[t].elements; ++i) take_mass_factor(t, i);
+  });
+}
+
+void TileElements::take_mass_factor(std::size_t t, std::size_t i) {
+  step_factor_[t][i] = side_factor_[t][i] * std::sqrt(mass_factor_[mesh_.tiles[t].first_block * block_lanes + i]);
 }
 
 TileElements::Place TileElements::find(Index element) const {

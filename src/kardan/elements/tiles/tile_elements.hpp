@@ -83,7 +83,7 @@ class TileElements {
         const double factor = mass_factor_[place] * ratio;
         add(mesh_.element[place], factor - mass_factor_[place]);
         mass_factor_[place] = factor;
-        step_factor_[t][i] = side_factor_[t][i] * std::sqrt(factor);
+        take_mass_factor(t, i);
       }
       outcome_[t].time_step = step;
     }
@@ -186,6 +186,8 @@ class TileElements {
     const std::size_t size = kernels_[mesh_.tiles[tile].part].history_size;
     return history_.data() + history_begin_[tile] + element / block_lanes * size * block_lanes + element % block_lanes;
   }
+  /// Element i of a tile has a new mass_factor_.
+  void take_mass_factor(std::size_t tile, std::size_t i);
   Place find(Index element) const;
   void count_deleted(std::size_t tile);
   void run_tile(std::size_t tile, const State& state, Scratch& scratch);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "kardan/base/diagnostics.hpp"
@@ -33,6 +34,11 @@ bool has_legend(OutputFile file) {
 
 AsciiWriter::AsciiWriter(std::filesystem::path path, RunLabel label)
     : file_(std::move(path)), label_(std::move(label)) {}
+
+AsciiWriter::AsciiWriter(std::filesystem::path path, RunLabel label, const nlohmann::json& mark)
+    : file_(std::move(path), mark.at("size").get<std::int64_t>()), label_(std::move(label)), headed_(mark.at("headed").get<bool>()) {}
+
+nlohmann::json AsciiWriter::mark() const { return {{"size", file_.size()}, {"headed", headed_}}; }
 
 std::string AsciiWriter::text_of(const Snapshot& s) {
   switch (s.file) {

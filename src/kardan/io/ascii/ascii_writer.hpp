@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "kardan/io/file_sink.hpp"
@@ -14,11 +15,16 @@ namespace kardan {
 class AsciiWriter {
  public:
   AsciiWriter(std::filesystem::path path, RunLabel label);
+  /// Goes on where mark() was taken.
+  AsciiWriter(std::filesystem::path path, RunLabel label, const nlohmann::json& mark);
 
   /// Appends one output of the file this writer was made for and flushes it.
   void write(const Snapshot& snapshot) { append(snapshot, text_of(snapshot)); }
   /// Appends the joints' separations (Kardan's file `jntsep`) and flushes them.
   void write_separations(const Snapshot& jntforc);
+
+  nlohmann::json mark() const;
+  void sync() { file_.sync(); }
 
  private:
   static std::string text_of(const Snapshot& snapshot);

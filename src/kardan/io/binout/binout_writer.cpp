@@ -2,12 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace kardan {
 
 BinoutWriter::BinoutWriter(std::filesystem::path path, RunLabel label)
     : file_(std::move(path)), label_(std::move(label)) {}
+
+BinoutWriter::BinoutWriter(std::filesystem::path path, RunLabel label, const nlohmann::json& mark)
+    : file_(std::move(path), mark.at("file")), label_(std::move(label)), states_(mark.at("states").get<std::map<std::string, int>>()) {}
+
+nlohmann::json BinoutWriter::mark() const { return {{"file", file_.mark()}, {"states", states_}}; }
 
 void BinoutWriter::write_metadata(const Folder& folder) {
   constexpr std::size_t title_width = 80;

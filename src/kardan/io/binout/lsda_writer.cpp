@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "kardan/base/diagnostics.hpp"
@@ -35,6 +36,24 @@ LsdaWriter::LsdaWriter(std::filesystem::path path) : file_(std::move(path)) {
   link_ = file_.position();
   const std::int64_t no_table = 0;
   file_.write(&no_table, sizeof no_table);
+}
+
+LsdaWriter::LsdaWriter(std::filesystem::path path, const nlohmann::json& mark)
+    : file_(std::move(path), mark.at("size").get<std::int64_t>()),
+      folder_(mark.at("folder").get<std::string>()),
+      folder_written_(mark.at("folder_written").get<bool>()),
+      link_(mark.at("link").get<std::int64_t>()) {
+  // The killed run may have linked a table that has been cut off.
+  const std::int64_t no_table = 0;
+  file_.seek(link_);
+  file_.write(&no_table, sizeof no_table);
+  file_.seek(file_.size());
+  file_.flush();
+}
+
+nlohmann::json LsdaWriter::mark() const {
+  KARDAN_ASSERT(pending_.empty());
+  return {{"size", file_.size()}, {"folder", folder_}, {"folder_written", folder_written_}, {"link", link_}};
 }
 
 void LsdaWriter::cd(std::string folder) {

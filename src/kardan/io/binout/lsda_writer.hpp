@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@ namespace kardan {
 class LsdaWriter {
  public:
   explicit LsdaWriter(std::filesystem::path path);
+  /// Goes on where mark() was taken.
+  LsdaWriter(std::filesystem::path path, const nlohmann::json& mark);
 
   /// Makes `folder` (absolute, e.g. "/glstat/d000001") the place of the arrays written next.
   void cd(std::string folder);
@@ -30,6 +33,9 @@ class LsdaWriter {
 
   /// Writes the symbol table of everything since the last call and links it: only then do readers see it.
   void flush();
+  /// After flush().
+  nlohmann::json mark() const;
+  void sync() { file_.sync(); }
 
  private:
   enum class Type : std::uint8_t { text = 1, int32 = 3, int64 = 4, real64 = 10 };

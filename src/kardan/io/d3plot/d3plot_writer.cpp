@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "kardan/base/diagnostics.hpp"
@@ -35,8 +36,7 @@ void require_fit(const Ids& ids, const char* what) {
 
 }  // namespace
 
-D3plotWriter::D3plotWriter(std::filesystem::path path, const RunLabel& label, const Model& model, const State& state,
-                           const D3plotOptions& options)
+D3plotWriter::D3plotWriter(std::filesystem::path path, const Model& model, const State& state, const D3plotOptions& options)
     : path_(std::move(path)), options_(options), layout_(model) {
   KARDAN_ASSERT(options_.word_bytes == 4 || options_.word_bytes == 8);
   words_.layers = state.results.shell.layers;
@@ -50,8 +50,38 @@ D3plotWriter::D3plotWriter(std::filesystem::path path, const RunLabel& label, co
     require_fit(model.beams.id, "beam");
     require_fit(model.discretes.id, "discrete element");
   }
+}
+
+D3plotWriter::D3plotWriter(std::filesystem::path path, const RunLabel& label, const Model& model, const State& state,
+                           const D3plotOptions& options)
+    : D3plotWriter(std::move(path), model, state, options) {
   file_.emplace(path_);
   write_geometry(label, model);
+}
+
+D3plotWriter::D3plotWriter(std::filesystem::path path, const Model& model, const State& state, const D3plotOptions& options,
+                           const nlohmann::json& mark)
+    : D3plotWriter(std::move(path), model, state, options) {
+  file_number_ = first_unsynced_ = mark.at("file_number").get<int>();
+  end_ = mark.at("end").get<std::int64_t>();
+  file_.emplace(member(file_number_), mark.at("size").get<std::int64_t>());
+  if (end_ == 0) return;
+  WordBuffer marker(options_.word_bytes);  // the killed run may have written the next state's time over it
+  marker.real(end_of_file);
+  file_->seek(end_);
+  file_->write(marker.bytes().data(), marker.bytes().size());
+  file_->flush();
+}
+
+nlohmann::json D3plotWriter::mark() const { return {{"file_number", file_number_}, {"end", end_}, {"size", file_->size()}}; }
+
+void D3plotWriter::sync() {
+  for (; first_unsynced_ < file_number_; ++first_unsynced_) sync_file(member(first_unsynced_));
+  file_->sync();
+}
+
+std::filesystem::path D3plotWriter::member(int number) const {
+  return number == 0 ? path_ : std::filesystem::path(path_.string() + fmt::format("{:02d}", number));
 }
 
 void D3plotWriter::write_geometry(const RunLabel& label, const Model& model) {
@@ -201,11 +231,20 @@ void D3plotWriter::append(WordBuffer& out) {
   const std::int64_t limit = options_.file_words * options_.word_bytes;
   const bool full = end_ > 0 && end_ + static_cast<std::int64_t>(out.bytes().size()) > limit;
   if (file_number_ == 0 || full) {
-    file_.emplace(std::filesystem::path(path_.string() + fmt::format("{:02d}", ++file_number_)));
+    file_.emplace(member(++file_number_));
     end_ = 0;
   }
-  file_->seek(end_);
-  file_->write(out.bytes().data(), out.bytes().size());
+  // The time goes over the end marker last: whatever happens before, readers find the states of before.
+  const std::size_t word = out.word_bytes();
+  if (end_ > 0) {
+    file_->seek(end_ + static_cast<std::int64_t>(word));
+    file_->write(out.bytes().data() + word, out.bytes().size() - word);
+    file_->flush();
+    file_->seek(end_);
+    file_->write(out.bytes().data(), word);
+  } else {
+    file_->write(out.bytes().data(), out.bytes().size());
+  }
   file_->flush();
   end_ += state_bytes;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include "kardan/io/d3plot/d3plot_layout.hpp"
@@ -31,6 +32,8 @@ class D3plotWriter {
   /// Writes the geometry. @throws RunError if the file cannot be written or a user id does not fit in a word.
   D3plotWriter(std::filesystem::path path, const RunLabel& label, const Model& model, const State& state,
                const D3plotOptions& options);
+  /// Goes on where mark() was taken; later members of the family must be gone.
+  D3plotWriter(std::filesystem::path path, const Model& model, const State& state, const D3plotOptions& options, const nlohmann::json& mark);
 
   /// Appends the state at t_n and flushes it. All nodes must be up to date.
   void write_state(const Model& model, const State& state);
@@ -39,7 +42,12 @@ class D3plotWriter {
   const D3plotLayout& layout() const { return layout_; }
   int word_bytes() const { return options_.word_bytes; }
 
+  nlohmann::json mark() const;
+  void sync();
+
  private:
+  D3plotWriter(std::filesystem::path path, const Model& model, const State& state, const D3plotOptions& options);
+  std::filesystem::path member(int number) const;
   void write_geometry(const RunLabel& label, const Model& model);
   void control_words(const RunLabel& label, WordBuffer& out) const;
   void geometry_words(const Model& model, WordBuffer& out) const;
@@ -55,6 +63,7 @@ class D3plotWriter {
   D3plotWords words_;
   std::optional<FileSink> file_;
   int file_number_ = 0;
+  int first_unsynced_ = 0;  ///< members from here on may not be on the disk
   std::int64_t end_ = 0;  ///< where the next state begins: the end marker stands there
 };
 

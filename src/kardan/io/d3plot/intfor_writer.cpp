@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace kardan {
@@ -21,6 +22,13 @@ Vec3 area_vector(const std::array<NodeIndex, 4>& nodes, const std::vector<Vec3>&
   return cross(x[at(nodes[2])] - x[at(nodes[0])], x[at(nodes[3])] - x[at(nodes[1])]) * 0.5;
 }
 
+D3plotOptions own_options(D3plotOptions options) {
+  options.material_types = false;
+  options.file_type = 4;
+  options.shell_words = segment_words;
+  return options;
+}
+
 }  // namespace
 
 bool IntforWriter::has_surfaces(const State& state) {
@@ -28,7 +36,7 @@ bool IntforWriter::has_surfaces(const State& state) {
                      [](const ContactReport& r) { return !r.segments[0].empty() || !r.segments[1].empty(); });
 }
 
-IntforWriter::IntforWriter(std::filesystem::path path, const RunLabel& label, const Model& model, const State& state, const D3plotOptions& options) {
+void IntforWriter::gather(const Model& model, const State& state) {
   for (std::size_t c = 0; c < state.contacts.size(); ++c)
     for (std::size_t side = 0; side < 2; ++side) {
       const ContactReport& report = state.contacts[c];
@@ -65,12 +73,20 @@ IntforWriter::IntforWriter(std::filesystem::path path, const RunLabel& label, co
       nodes[k] = static_cast<NodeIndex>(std::lower_bound(model_node_.begin(), model_node_.end(), face.nodes[k]) - model_node_.begin());
     surfaces_.shells.nodes.push_back(nodes);
   }
-  D3plotOptions own = options;
-  own.material_types = false;
-  own.file_type = 4;
-  own.shell_words = segment_words;
-  file_.emplace(std::move(path), label, surfaces_, State{}, own);
 }
+
+IntforWriter::IntforWriter(std::filesystem::path path, const RunLabel& label, const Model& model, const State& state, const D3plotOptions& options) {
+  gather(model, state);
+  file_.emplace(std::move(path), label, surfaces_, State{}, own_options(options));
+}
+
+IntforWriter::IntforWriter(std::filesystem::path path, const Model& model, const State& state, const D3plotOptions& options,
+                           const nlohmann::json& mark) {
+  gather(model, state);
+  file_.emplace(std::move(path), surfaces_, State{}, own_options(options), mark);
+}
+
+nlohmann::json IntforWriter::mark() const { return file_->mark(); }
 
 void IntforWriter::write_state(const State& state) {
   WordBuffer out(file_->word_bytes());

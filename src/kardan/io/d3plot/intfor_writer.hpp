@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "kardan/io/d3plot/d3plot_writer.hpp"
@@ -16,9 +17,14 @@ class IntforWriter {
   /// Writes the geometry of all sides that SPR or MPR ask for.
   /// @throws RunError if the file cannot be written
   IntforWriter(std::filesystem::path path, const RunLabel& label, const Model& model, const State& state, const D3plotOptions& options);
+  /// Goes on where mark() was taken.
+  IntforWriter(std::filesystem::path path, const Model& model, const State& state, const D3plotOptions& options, const nlohmann::json& mark);
 
   /// Appends the state at t_n. The nodal forces of the contacts must be up to date.
   void write_state(const State& state);
+
+  nlohmann::json mark() const;
+  void sync() { file_->sync(); }
 
   static bool has_surfaces(const State& state);
 
@@ -30,6 +36,8 @@ class IntforWriter {
     std::array<std::size_t, 4> place{};      ///< of its nodes in ContactReport::nodes
     std::array<double, 4> share{};           ///< its part of the force there
   };
+
+  void gather(const Model& model, const State& state);
 
   Model surfaces_;                           ///< nodes and shells of the file
   std::vector<NodeIndex> model_node_;        ///< by node of the file

@@ -205,11 +205,18 @@ class Block {
   Diagnostics* diagnostics_ = nullptr;
 };
 
+/// A file that was read, and what it held then.
+struct DeckFile {
+  std::string name;                ///< as shown in messages
+  std::size_t bytes = 0;
+  std::uint64_t hash = 0;          ///< of the text
+};
+
 /// A deck with its includes: the blocks in reading order: the honoured keywords, and materials that are not
 /// built (for their density).
 struct Deck {
   std::vector<Block> blocks;
-  std::vector<std::string> files;  ///< every file read, the main one first
+  std::vector<DeckFile> files;     ///< every file read, the main one first
   std::size_t bytes = 0;           ///< of text read
 };
 

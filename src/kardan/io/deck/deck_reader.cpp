@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <span>
 #include <utility>
+
+#include "kardan/state/registry.hpp"
 
 namespace kardan::deck {
 
@@ -89,8 +92,9 @@ std::size_t DeckReader::first_keyword(const FileState& state, int& line) {
 }
 
 void DeckReader::read(FileState& state) {
-  deck_.files.push_back(state.file->name);
-  deck_.bytes += state.file->text.size();
+  const std::string_view all = state.file->text;
+  deck_.files.push_back({state.file->name, all.size(), fnv1a(fnv1a_start, std::as_bytes(std::span(all)))});
+  deck_.bytes += all.size();
   const std::string_view text = state.file->text;
   int line = 1;
   std::size_t at = first_keyword(state, line);

@@ -14,6 +14,7 @@ struct LoadOptions {
 };
 
 /// Reads a deck with its includes and builds the model of it; see read_deck and build_model for what goes where.
-Model load_model(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics);
+/// @param files  gets the files that were read
+Model load_model(const std::filesystem::path& path, const LoadOptions& options, Diagnostics& diagnostics, std::vector<DeckFile>* files = nullptr);
 
 }  // namespace kardan::deck

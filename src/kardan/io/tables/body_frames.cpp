@@ -1,6 +1,7 @@
 #include "kardan/io/tables/body_frames.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 namespace kardan {
@@ -44,7 +45,29 @@ Vec3 unwound(const Quat& q, const Vec3& expected) {
   return axis * (angle + turn * std::round((dot(expected, axis) - angle) / turn));
 }
 
+nlohmann::json numbers_of(const std::vector<Vec3>& vectors) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Vec3& v : vectors)
+    for (const double x : {v.x, v.y, v.z}) list.push_back(x);
+  return list;
+}
+
+void take_numbers(const nlohmann::json& list, std::vector<Vec3>& vectors) {
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) vectors[i][k] = list.at(3 * i + k).get<double>();
+}
+
 }  // namespace
+
+nlohmann::json BodyFrames::mark() const {
+  return {{"time", time_}, {"rotation", numbers_of(rotation_)}, {"angular_velocity", numbers_of(angular_velocity_)}};
+}
+
+void BodyFrames::resume(const nlohmann::json& mark) {
+  mark.at("time").get_to(time_);
+  take_numbers(mark.at("rotation"), rotation_);
+  take_numbers(mark.at("angular_velocity"), angular_velocity_);
+}
 
 BodyFrames::BodyFrames(const Model& model, const State& state) {
   for (const BodyInfo& info : state.bodies.info) initial_axes_.push_back(initial_axes(model, info));

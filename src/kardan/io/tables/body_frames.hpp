@@ -1,6 +1,7 @@
 // Local systems and rotations of rigid bodies as the result files report them.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "kardan/model/model.hpp"
@@ -18,6 +19,10 @@ class BodyFrames {
 
   /// Follows the rotations to t_n. To be called at every output, in the order of time.
   void follow(const State& state);
+
+  /// What a later run needs to go on.
+  nlohmann::json mark() const;
+  void resume(const nlohmann::json& mark);
 
   /// Rotation since t = 0 as a rotation vector (radians) at the last follow(). A rotation vector is unique up to whole
   /// turns about its axis; the turns are chosen nearest to the integral of the angular velocity between the outputs, so

@@ -1,6 +1,7 @@
 #include "kardan/io/tables/reporter.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "kardan/base/diagnostics.hpp"
 
@@ -15,6 +16,8 @@ const std::vector<OutputFile>& Reporter::files() {
                                               OutputFile::swforc};
   return all;
 }
+
+nlohmann::json Reporter::mark() const { return frames_.mark(); }
 
 Snapshot Reporter::take(OutputFile file, const Model& model, const State& state) const {
   Snapshot s{file, state.clock.time, state.clock.cycle, {}};

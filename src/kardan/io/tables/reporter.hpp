@@ -1,6 +1,7 @@
 // Collects what each time-history file reports at t_n.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "kardan/io/tables/body_frames.hpp"
@@ -19,6 +20,9 @@ class Reporter {
 
   /// To be called once at every output time, before take().
   void follow(const State& state) { frames_.follow(state); }
+  /// What a later run needs to go on.
+  nlohmann::json mark() const;
+  void resume(const nlohmann::json& mark) { frames_.resume(mark); }
 
   /// What `file` (one of files()) reports at t_n; without folders if the model has nothing of the kind.
   Snapshot take(OutputFile file, const Model& model, const State& state) const;

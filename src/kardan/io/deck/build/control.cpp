@@ -1,4 +1,5 @@
 // *TITLE, *CONTROL, *DATABASE.
+#include <algorithm>
 #include <map>
 
 #include "kardan/io/deck/build/builder.hpp"
@@ -220,9 +221,21 @@ void read_extent(Builder& b, Block& block) {
   for (const char* field : {"hydro", "msscl", "therm", "nintsld"}) b.ignored(last, field, "not written");
 }
 
+void read_restart_files(Builder& b, Block& block) {
+  const Card card = block.next_optional("card0");
+  const double cycles = card.real("cycl");
+  if (cycles < 0) return card.error("cycl", "is negative", "give the number of cycles between two restart files");
+  if (Builder::has_field(block, "card0", "nr") && card.integer("nr") > 2) b.ignored(card, "nr", "the last two restart files are kept");
+  if (cycles < 1) return;
+  std::int64_t& every = b.model.output.restart_cycles;
+  const auto own = static_cast<std::int64_t>(std::min(cycles, 1e15));
+  every = every > 0 ? std::min(every, own) : own;
+}
+
 }  // namespace
 
 void build_database(Builder& b, Block& block) {
+  if (block.keyword == "DATABASE_BINARY_D3DUMP" || block.keyword == "DATABASE_BINARY_RUNRSF") return read_restart_files(b, block);
   if (block.keyword == "DATABASE_EXTENT_BINARY") return read_extent(b, block);
   const auto file = files().find(block.keyword.substr(std::string("DATABASE_").size()));
   if (file == files().end()) {
