@@ -18,6 +18,7 @@
 #include "kardan/rigid/joint_setup.hpp"
 #include "kardan/rigid/joint_stiffness.hpp"
 #include "kardan/rigid/motors.hpp"
+#include "kardan/rigid/node_resultants.hpp"
 #include "kardan/rigid/penalty_joints.hpp"
 
 namespace kardan {
@@ -34,13 +35,13 @@ struct RigidSystem::Impl {
   PenaltyJoints penalty;
   JointStiffnesses stiffness;
   std::vector<std::size_t> needed;        ///< into assembly.nodes: nodes kept current every cycle
+  std::vector<NodeIndex> needed_node;
   std::vector<BodyIndex> needed_body;
   bool needed_listed = false;
   std::vector<double> acting;             ///< see acting_forces(); empty where the rows' forces are unique
   double reported_work = 0;               ///< of motions and motors, already in the ledger
 
   void list_needed(const State& state);
-  void gather_forces(State& state) const;
   void set_trial(const State& state);
   void solve_joints(const Model& model, State& state);
   void find_first_joint_forces(const Model& model, const State& state);
@@ -132,8 +133,8 @@ void RigidSystem::set_initial_velocities(const Model& model, State& state, Diagn
   for (std::size_t k = 0; k < s.needed.size(); ++k) {
     const BodyMotion& m = state.bodies.motion[s.needed_body[k]];
     const Vec3 r = s.bodies.rotation[s.needed_body[k]] * nodes.arm[s.needed[k]];
-    state.nodes.v[nodes.node[s.needed[k]]] = m.velocity + cross(m.angular_velocity, r);
-    state.nodes.omega[nodes.node[s.needed[k]]] = m.angular_velocity;
+    state.nodes.v[s.needed_node[k]] = m.velocity + cross(m.angular_velocity, r);
+    state.nodes.omega[s.needed_node[k]] = m.angular_velocity;
   }
 }
 
@@ -150,24 +151,16 @@ double RigidSystem::default_time_step(const Model& model, const State& state) co
 
 void RigidSystem::Impl::list_needed(const State& state) {
   needed.clear();
+  needed_node.clear();
   needed_body.clear();
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (std::size_t i = assembly.nodes.first[b]; i < assembly.nodes.first[b + 1]; ++i)
       if (state.nodes.needed[assembly.nodes.node[i]]) {
         needed.push_back(i);
+        needed_node.push_back(assembly.nodes.node[i]);
         needed_body.push_back(static_cast<BodyIndex>(b));
       }
   needed_listed = true;
-}
-
-void RigidSystem::Impl::gather_forces(State& state) const {
-  for (std::size_t k = 0; k < needed.size(); ++k) {
-    const NodeIndex n = assembly.nodes.node[needed[k]];
-    const BodyIndex b = needed_body[k];
-    const Vec3& f = state.nodes.force[n];
-    state.bodies.force[b] += f;
-    state.bodies.moment[b] += state.nodes.moment[n] + cross(state.nodes.x[n] - state.bodies.motion[b].center, f);
-  }
 }
 
 void RigidSystem::Impl::set_trial(const State& state) {
@@ -248,7 +241,7 @@ void RigidSystem::Impl::take_velocities(State& state) {
   }
   // Eqs. (9) and (12): velocities of nodes from the positions at both ends of the step.
   for (std::size_t k = 0; k < needed.size(); ++k) {
-    const NodeIndex n = assembly.nodes.node[needed[k]];
+    const NodeIndex n = needed_node[k];
     const BodyTrial& t = bodies.trial[needed_body[k]];
     state.nodes.v[n] = (t.center + t.rotation * assembly.nodes.arm[needed[k]] - state.nodes.x[n]) / h;
     state.nodes.omega[n] = state.bodies.motion[needed_body[k]].angular_velocity;
@@ -275,7 +268,7 @@ void RigidSystem::Impl::fill_body_reports(State& state) const {
   }
 }
 
-void RigidSystem::gather_forces(State& state) const { impl_->gather_forces(state); }
+void RigidSystem::gather_forces(State& state) const { add_node_resultants(state, impl_->needed_node, impl_->needed_body); }
 
 void RigidSystem::kick(const Model& model, State& state) {
   Impl& s = *impl_;
@@ -306,7 +299,7 @@ void RigidSystem::drift(const Model&, State& state) {
   }
   for (std::size_t k = 0; k < s.needed.size(); ++k) {
     const BodyTrial& t = s.bodies.trial[s.needed_body[k]];
-    state.nodes.x[s.assembly.nodes.node[s.needed[k]]] = t.center + t.rotation * s.assembly.nodes.arm[s.needed[k]];
+    state.nodes.x[s.needed_node[k]] = t.center + t.rotation * s.assembly.nodes.arm[s.needed[k]];
   }
 }
 
