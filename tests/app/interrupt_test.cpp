@@ -11,13 +11,15 @@
 #include <string>
 #include <thread>
 
+#include "app/folder_test.hpp"
+
 namespace kardan::app {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// A run that would take hours.
-constexpr const char* endless = R"(*KEYWORD
+const std::string endless = R"(*KEYWORD
 *CONTROL_TERMINATION
 1e6
 *CONTROL_TIMESTEP
@@ -26,42 +28,18 @@ constexpr const char* endless = R"(*KEYWORD
 1e3
 *DATABASE_BINARY_D3PLOT
 1e5
-*PART
-cube
-1,1,1
-*SECTION_SOLID
-1,1
-*MAT_RIGID
-1,1.25,2.1e5,0.3
-0
-0
-*NODE
-1,0,0,0
-2,2,0,0
-3,2,2,0
-4,0,2,0
-5,0,0,2
-6,2,0,2
-7,2,2,2
-8,0,2,2
-*ELEMENT_SOLID
-1,1,1,2,3,4,5,6,7,8
-*INITIAL_VELOCITY_RIGID_BODY
+)" + rigid_cube + R"(*INITIAL_VELOCITY_RIGID_BODY
 1,1.0
 *END
 )";
 
 /// The real program on the endless deck, in a folder of its own.
-class Interrupt : public testing::Test {
+class Interrupt : public FolderTest {
  protected:
   void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::temp_directory_path() / (std::string("kardan_") + test->name() + "_" + std::to_string(::getpid()));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    std::ofstream(folder / "endless.k") << endless;
+    FolderTest::SetUp();
+    write("endless.k", endless);
   }
-  void TearDown() override { fs::remove_all(folder); }
 
   /// Starts it; it runs when this returns.
   void start(bool again = false) {
@@ -103,7 +81,6 @@ class Interrupt : public testing::Test {
   }
   void order(const std::string& words) const { std::ofstream(folder / "out" / "d3kil") << words; }
 
-  fs::path folder;
   pid_t child = 0;
 };
 

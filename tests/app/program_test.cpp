@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/folder_test.hpp"
+
 namespace kardan::app {
 namespace {
 
@@ -17,17 +19,9 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A folder of its own for each test, and the program's exit code and words.
-class Program : public testing::Test {
+/// The program's exit code and words.
+class Program : public FolderTest {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::temp_directory_path() / (std::string("kardan_") + test->name() + "_" + std::to_string(::getpid()));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
   int call(const std::vector<std::string>& arguments) {
     std::ostringstream o, e;
     const int code = run_program(arguments, o, e, false);
@@ -35,20 +29,12 @@ class Program : public testing::Test {
     err = e.str();
     return code;
   }
-  std::string deck(const std::string& name, const std::string& text) {
-    std::ofstream(folder / name) << text;
-    return (folder / name).string();
-  }
-  nlohmann::json summary(const std::string& results) {
-    std::ifstream file(folder / results / "summary.json");
-    return nlohmann::json::parse(file);
-  }
+  std::string deck(const std::string& name, const std::string& text) { return write(name, text).string(); }
 
-  fs::path folder;
   std::string out, err;
 };
 
-/// A rigid cube of 2 x 2 x 2, density 1.25 (mass 10), that falls under gravity 10 for 0.5.
+/// The cube falls under gravity 10 for 0.5.
 const std::string falling_cube = R"(*KEYWORD
 *TITLE
 falling cube
@@ -62,27 +48,7 @@ falling cube
 0.1
 *DATABASE_BINARY_D3PLOT
 0.25
-*PART
-cube
-1,1,1
-*SECTION_SOLID
-1,1
-*MAT_RIGID
-1,1.25,2.1e5,0.3
-0
-0
-*NODE
-1,0,0,0
-2,2,0,0
-3,2,2,0
-4,0,2,0
-5,0,0,2
-6,2,0,2
-7,2,2,2
-8,0,2,2
-*ELEMENT_SOLID
-1,1,1,2,3,4,5,6,7,8
-*DEFINE_CURVE
+)" + rigid_cube + R"(*DEFINE_CURVE
 1
 0,1
 100,1

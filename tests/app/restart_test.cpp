@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/folder_test.hpp"
 #include "app/restart_decks.hpp"
 #include "kardan/app/checkpoints.hpp"
 #include "kardan/app/program.hpp"
@@ -27,25 +28,13 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-class Restart : public testing::Test {
+class Restart : public FolderTest {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::temp_directory_path() / (std::string("kardan_restart_") + test->name() + "_" + std::to_string(::getpid()));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
   int call(const std::vector<std::string>& arguments) {
     std::ostringstream o, e;
     const int code = run_program(arguments, o, e, false);
     words = o.str() + e.str();
     return code;
-  }
-  fs::path write(const std::string& name, const std::string& text) {
-    std::ofstream(folder / name) << text;
-    return folder / name;
   }
 
   /// Steps of a run into folder/broken: restart files after each of `stored` steps, the end, as if killed, after `steps`.
@@ -100,7 +89,6 @@ class Restart : public testing::Test {
     }
   }
 
-  fs::path folder;
   std::string words;
 };
 
