@@ -63,13 +63,7 @@ KARDAN_INLINE void full_hexahedron_pack(const SolidProperties& p, const Law& law
     stress.zz -= mean;
     const Mat3T<R> deviator = full_tensor(stress);
     const Vec3T<R> fr = deviator * c.r, fs = deviator * c.s, ft = deviator * c.t;
-    f.a[0] += fr;
-    f.a[1] += fs;
-    f.a[2] += ft;
-    f.a[3] += fr * s + fs * r;
-    f.a[4] += fs * t + ft * s;
-    f.a[5] += fr * t + ft * r;
-    f.a[6] += fr * (s * t) + fs * (r * t) + ft * (r * s);
+    add_mode_forces(f, r, s, t, fr, fs, ft);
   }
   work += bulk.work(divergence, dt) * m.between.volume;
   const R mean = pressure / m.now.volume - bulk.pressure;

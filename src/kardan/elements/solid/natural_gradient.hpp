@@ -20,6 +20,18 @@ struct NaturalGradient {
         t(m.a[2] + m.a[4] * ps + m.a[5] * pr + m.a[6] * (pr * ps)) {}
 };
 
+/// Adds to the forces on the modes what fr, fs, ft on the derivatives mean: the transpose of NaturalGradient.
+template <class R>
+KARDAN_INLINE void add_mode_forces(Modes<R>& f, const R& r, const R& s, const R& t, const Vec3T<R>& fr, const Vec3T<R>& fs, const Vec3T<R>& ft) {
+  f.a[0] += fr;
+  f.a[1] += fs;
+  f.a[2] += ft;
+  f.a[3] += fr * s + fs * r;
+  f.a[4] += fs * t + ft * s;
+  f.a[5] += fr * t + ft * r;
+  f.a[6] += fr * (s * t) + fs * (r * t) + ft * (r * s);
+}
+
 /// c_r, c_s, c_t and J of the positions' derivatives.
 template <class R>
 struct Cofactors {

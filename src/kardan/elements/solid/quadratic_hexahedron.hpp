@@ -162,14 +162,7 @@ KARDAN_INLINE void quadratic_point(const Law& law, const StepTime& step, const Q
 
   const Mat3T<R> tensor = full_tensor(point.stress);
   const Vec3T<R> fr = tensor * c.r * weight, fs = tensor * c.s * weight, ft = tensor * c.t * weight;
-  Modes<R>& f = sum.force;
-  f.a[0] += fr;
-  f.a[1] += fs;
-  f.a[2] += ft;
-  f.a[3] += fr * s + fs * r;
-  f.a[4] += fs * t + ft * s;
-  f.a[5] += fr * t + ft * r;
-  f.a[6] += fr * (s * t) + fs * (r * t) + ft * (r * s);
+  add_mode_forces(sum.force, r, s, t, fr, fs, ft);
   add_forces(sum.bulge_force.r, r, s, t, fr, fs, ft);
   add_forces(sum.bulge_force.s, s, t, r, fs, ft, fr);
   add_forces(sum.bulge_force.t, t, r, s, ft, fr, fs);

@@ -88,17 +88,23 @@ bool layered(InitialStress& entry) {
   return true;
 }
 
+/// What the first card of all three keywords says.
+InitialStress entry_of(Builder& b, const Card& card, ElementKind kind, bool set) {
+  InitialStress entry;
+  entry.kind = kind;
+  entry.elements = elements_of(b, card, kind, set);
+  refuse_turned(b, card);
+  return entry;
+}
+
 }  // namespace
 
 void build_initial_stress_shell(Builder& b, Block& block) {
   const bool set = block.keyword.ends_with("_SET");
   while (!block.at_end()) {
     const Card card = block.next("card0");
-    InitialStress entry;
-    entry.kind = ElementKind::shell;
-    entry.elements = elements_of(b, card, entry.kind, set);
+    InitialStress entry = entry_of(b, card, ElementKind::shell, set);
     entry.planes = static_cast<int>(count_of(card, "nplane"));
-    refuse_turned(b, card);
     refuse_thermal(b, card);
     b.ignored(card, "ntensr", "tensors of histories are not taken");
     const bool large = card.integer("large") != 0;
@@ -127,10 +133,7 @@ void build_initial_stress_solid(Builder& b, Block& block) {
   const bool set = block.keyword.ends_with("_SET");
   while (!block.at_end()) {
     const Card card = block.next("card0");
-    InitialStress entry;
-    entry.kind = ElementKind::solid;
-    entry.elements = elements_of(b, card, entry.kind, set);
-    refuse_turned(b, card);
+    InitialStress entry = entry_of(b, card, ElementKind::solid, set);
     refuse_thermal(b, card);
     b.refuse_nonzero(card, "iveflg", "initial volumes and energies with initial stresses", "leave IVEFLG at 0");
     const bool large = card.integer("large") != 0;
@@ -153,10 +156,7 @@ void build_initial_stress_beam(Builder& b, Block& block) {
                                                 dimension::moment, dimension::moment, dimension::moment};
   while (!block.at_end()) {
     const Card card = block.next("card0");
-    InitialStress entry;
-    entry.kind = ElementKind::beam;
-    entry.elements = elements_of(b, card, entry.kind, false);
-    refuse_turned(b, card);
+    InitialStress entry = entry_of(b, card, ElementKind::beam, false);
     b.refuse_nonzero(card, "naxes", "the axes of a beam with initial stresses", "leave NAXES at 0: they are those of its nodes");
     entry.local = card.integer("local") == 1;
     const bool large = card.integer("large") != 0;
